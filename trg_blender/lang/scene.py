@@ -96,7 +96,8 @@ class LightRecord:
 
     dir: `direction` points towards the light; colour (1, 1, 1) gives a facing white Lambert surface
     the radiance 1. point and spot: `position`, `falloff` (cc, cl, cq): radiance of a facing white
-    Lambert surface at distance d is colour * min(1, 1 / (cc + cl d + cq d^2)). spot: `direction` is
+    Lambert surface at distance d is colour * min(1, 1 / (cc + cl d + cq d^2)); the default (0, 0, 1)
+    is the plain inverse square, without the minimum. spot: `direction` is
     where it shines, `angle_in` and `angle_out` full cone angles in degrees. area: rectangle centred on
     `position`, shining along `direction`, `size` (width, height) metres, colour is its radiance.
     """
@@ -107,7 +108,7 @@ class LightRecord:
     color: Vec3
     position: Vec3 = (0.0, 0.0, 0.0)
     direction: Vec3 = (0.0, 1.0, 0.0)
-    falloff: Vec3 = (1.0, 0.0, 0.0)
+    falloff: Vec3 = (0.0, 0.0, 1.0)
     angle_in: float = 0.0
     angle_out: float = 0.0
     size: tuple[float, float] = (0.0, 0.0)

@@ -1,0 +1,1 @@
+"""Engine room: from scene records to pictures; `bpy` only in the marked files."""

@@ -1,0 +1,188 @@
+"""A whole scene as flat arrays: what every renderer of TRG takes, without bpy.
+
+Space is Blender's world: right-handed, Z up, metres; colours are scene-linear Rec.709 radiometry.
+The meaning of every number is docs/architecture.md, section 4.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, fields
+
+import numpy as np
+from numpy.typing import NDArray
+
+Float32 = NDArray[np.float32]
+Float64 = NDArray[np.float64]
+Int32 = NDArray[np.int32]
+Color = tuple[float, float, float]
+
+WRAP_MODES = ("repeat", "extend")
+LIGHT_KINDS = ("sun", "point", "spot", "area_rectangle", "area_ellipse")
+CAMERA_KINDS = ("perspective", "orthographic")
+
+
+@dataclass(slots=True)
+class MeshArrays:
+    """Triangles of one mesh in its own space."""
+
+    vertices: Float32
+    """(n, 3)"""
+    triangles: Int32
+    """(m, 3), counter-clockwise seen from outside"""
+    normals: Float32 | None = None
+    """(m, 3, 3) corner normals, unit; None is flat shading"""
+    uvs: Float32 | None = None
+    """(m, 3, 2); None when no material of the scene asks for it"""
+    slots: Int32 | None = None
+    """(m,) material slot of each triangle; None is slot 0"""
+    origin: str = ""
+    """Blender name, for messages"""
+
+
+@dataclass(slots=True)
+class InstanceArrays:
+    """Copies of one mesh that share their materials."""
+
+    mesh: int
+    transforms: Float32
+    """(k, 3, 4) object to world"""
+    slot_materials: Int32
+    """(slots,) slot -> index into SceneArrays.materials"""
+    origin: str = ""
+
+
+@dataclass(slots=True)
+class ImageArrays:
+    """Pixels as they were stored; row 0 is the bottom row."""
+
+    pixels: NDArray[np.uint8] | Float32
+    """(h, w, c), c = 1, 3 or 4"""
+    srgb: bool = True
+    """True: the stored values are sRGB-encoded, convert before use"""
+    origin: str = ""
+
+
+@dataclass(slots=True)
+class Texture:
+    """A look-up: image at uv * scale + offset."""
+
+    image: int
+    scale_u: float = 1.0
+    scale_v: float = 1.0
+    offset_u: float = 0.0
+    offset_v: float = 0.0
+    wrap: int = 0
+    """index into WRAP_MODES"""
+
+
+@dataclass(slots=True)
+class Material:
+    """One row of the material table; `*_texture` is an index into SceneArrays.textures or -1."""
+
+    base_r: float = 0.8
+    base_g: float = 0.8
+    base_b: float = 0.8
+    metallic: float = 0.0
+    roughness: float = 0.5
+    ior: float = 1.5
+    specular: float = 1.0
+    transmission: float = 0.0
+    emission_r: float = 0.0
+    emission_g: float = 0.0
+    emission_b: float = 0.0
+    base_texture: int = -1
+    roughness_texture: int = -1
+    metallic_texture: int = -1
+    emission_texture: int = -1
+
+
+@dataclass(slots=True)
+class Light:
+    """One row of the light table."""
+
+    kind: int
+    """index into LIGHT_KINDS"""
+    color_r: float
+    color_g: float
+    color_b: float
+    position_x: float = 0.0
+    position_y: float = 0.0
+    position_z: float = 0.0
+    direction_x: float = 0.0
+    direction_y: float = 0.0
+    direction_z: float = 1.0
+    """sun: unit vector towards the light; spot and area: unit vector along which it shines"""
+    axis_u_x: float = 0.0
+    axis_u_y: float = 0.0
+    axis_u_z: float = 0.0
+    axis_v_x: float = 0.0
+    axis_v_y: float = 0.0
+    axis_v_z: float = 0.0
+    radius: float = 0.0
+    angle: float = 0.0
+    """sun: angular radius, radians"""
+    cos_outer: float = -1.0
+    cos_inner: float = -1.0
+    falloff_constant: float = 0.0
+    falloff_linear: float = 0.0
+    falloff_quadratic: float = 1.0
+
+
+MATERIAL_FIELDS = tuple(f.name for f in fields(Material))
+LIGHT_FIELDS = tuple(f.name for f in fields(Light))
+TEXTURE_FIELDS = tuple(f.name for f in fields(Texture))
+
+
+def pack_table(rows: list[Material] | list[Light] | list[Texture], names: tuple[str, ...]) -> Float32:
+    """Float32 table (len(rows), len(names)) with one column a field, in field order."""
+    table = np.zeros((len(rows), len(names)), dtype=np.float32)
+    for index, row in enumerate(rows):
+        table[index] = [getattr(row, name) for name in names]
+    return table
+
+
+@dataclass(slots=True)
+class Camera:
+    kind: int
+    """index into CAMERA_KINDS"""
+    matrix: Float64
+    """(3, 4) camera to world, axes unit and orthogonal"""
+    window: tuple[float, float, float, float]
+    """left, right, bottom, top"""
+    clip_start: float = 1e-6
+    clip_end: float = 1e30
+
+
+@dataclass(slots=True)
+class SceneArrays:
+    camera: Camera
+    meshes: list[MeshArrays] = field(default_factory=list)
+    instances: list[InstanceArrays] = field(default_factory=list)
+    materials: list[Material] = field(default_factory=list)
+    images: list[ImageArrays] = field(default_factory=list)
+    textures: list[Texture] = field(default_factory=list)
+    lights: list[Light] = field(default_factory=list)
+    world: Color = (0.0, 0.0, 0.0)
+    transparent_film: bool = False
+    warnings: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True, slots=True)
+class RenderSettings:
+    """How to render. Names of devices, accelerators and integrators are those of the command line."""
+
+    width: int
+    height: int
+    samples: int = 64
+    seed: int = 0
+    max_bounces: int = 12
+    threads: int = 0
+    """0: all cores"""
+    device: str = "cpu"
+    accel: str = "auto"
+    triangle_test: str = "watertight"
+    integrator: str = "path"
+    passes: tuple[str, ...] = ()
+    """any of depth, normal; combined is always there"""
+    border: tuple[int, int, int, int] | None = None
+    """x_min, y_min, x_max, y_max in pixels of the whole picture (max exclusive): render only that part"""
