@@ -1,0 +1,73 @@
+/// Geometry with an index over it: the one interface through which rays meet triangles.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "geom/ray.h"
+#include "geom/transform.h"
+
+namespace trg {
+
+enum class AccelKind { automatic, bvh, grid, none };
+enum class TriangleTest { watertight, classic };
+
+struct Triangle {
+    int32_t vertex[3];
+};
+
+struct Mesh {
+    std::vector<Vec3> vertices;
+    std::vector<Triangle> triangles;
+};
+
+struct Instance {
+    int32_t mesh;
+    bool identity;
+    bool mirrored;
+    Transform object_to_world;
+    Transform world_to_object;
+};
+
+struct BuildStats {
+    double seconds = 0;
+    int64_t bytes = 0;
+    int64_t nodes = 0;
+    int64_t triangles = 0;
+    int64_t instances = 0;
+    int64_t degenerate_triangles = 0;
+    AccelKind accel = AccelKind::none;
+    std::string reason;
+};
+
+/// What `build_world` makes; private to room accel.
+struct WorldIndex;
+
+struct World {
+    AccelKind accel = AccelKind::automatic;
+    TriangleTest triangle_test = TriangleTest::watertight;
+    std::vector<Mesh> meshes;
+    std::vector<Instance> instances;
+    std::shared_ptr<const WorldIndex> index;
+};
+
+/// Adds a mesh (indices must lie within `vertices`); it shows only through instances.
+int add_mesh(World& world, Mesh mesh);
+
+/// Adds a copy of `mesh` placed by `object_to_world`, whose determinant must not be zero.
+int add_instance(World& world, int mesh, const Transform& object_to_world);
+
+/// Builds the index over everything added so far. Triangles with coordinates that are not finite or
+/// exceed 1e18 and triangles of no area are left out and counted as degenerate.
+BuildStats build_world(World& world, int threads);
+
+/// Fills `hits` with the nearest hit of each ray, ties by (t, instance, triangle). Needs a built
+/// world; many threads may call it at once; allocates nothing.
+void intersect_closest(const World& world, const Ray* rays, Hit* hits, int count);
+
+/// Sets `hidden[i]` to 1 where ray i meets any triangle, else to 0. As thread-safe as above.
+void intersect_any(const World& world, const Ray* rays, uint8_t* hidden, int count);
+
+}  // namespace trg

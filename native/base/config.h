@@ -1,0 +1,11 @@
+/// Macros that every unit of the native core shares.
+#pragma once
+
+/// Marks a function of a header that is compiled once per instruction set: each unit keeps its own
+/// copy, so that the linker can never put AVX code into the baseline build.
+#define TRG_FN [[maybe_unused]] static inline
+
+/// Namespace of the instruction set that this unit is compiled for (baseline, avx2 or avx512).
+#ifndef TRG_ISA
+#define TRG_ISA baseline
+#endif

@@ -1,0 +1,35 @@
+/// Rays and what they hit: the plain records that cross from shading to acceleration and back.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "base/vec3.h"
+
+namespace trg {
+
+/// Points origin + t direction with t_min < t < t_max. `direction` need not be unit.
+struct Ray {
+    Vec3 origin;
+    float t_min;
+    Vec3 direction;
+    float t_max;
+};
+
+/// The nearest triangle: P = (1 - u - v) P0 + u P1 + v P2. A miss has t = inf, indices -1.
+struct Hit {
+    float t, u, v;
+    int32_t triangle, instance;
+};
+
+TRG_FN Hit no_hit() { return {std::numeric_limits<float>::infinity(), 0.0f, 0.0f, -1, -1}; }
+
+/// False when a number is not finite (an infinite t_max is allowed) or the direction is null:
+/// such rays hit nothing.
+TRG_FN bool is_traceable(const Ray& ray) {
+    const bool directed = ray.direction.x != 0 || ray.direction.y != 0 || ray.direction.z != 0;
+    return directed && is_finite(ray.origin) && is_finite(ray.direction) &&
+           std::isfinite(ray.t_min) && ray.t_max > ray.t_min;
+}
+
+}  // namespace trg

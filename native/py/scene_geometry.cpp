@@ -1,0 +1,196 @@
+#include "py/scene_geometry.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "py/buffer.h"
+#include "py/scene_object.h"
+
+namespace trg::py {
+
+namespace {
+
+std::vector<float> copy_floats(const Buffer& buffer) {
+    if (!buffer.present()) return {};
+    const float* data = buffer.data<float>();
+    return {data, data + buffer.count()};
+}
+
+std::vector<int32_t> copy_ints(const Buffer& buffer) {
+    if (!buffer.present()) return {};
+    const int32_t* data = buffer.data<int32_t>();
+    return {data, data + buffer.count()};
+}
+
+std::string row_text(const char* name, int64_t row) {
+    return std::string(name) + ": row " + std::to_string(row) + " ";
+}
+
+Mesh copy_mesh(const Buffer& vertices, const Buffer& triangles) {
+    constexpr int64_t kMostItems = int64_t{1} << 30;
+    if (vertices.extent(0) > kMostItems) throw ArgumentError("vertices: more than 2^30 rows");
+    if (triangles.extent(0) > kMostItems) throw ArgumentError("triangles: more than 2^30 rows");
+    Mesh mesh;
+    mesh.vertices.resize(vertices.extent(0));
+    if (!mesh.vertices.empty())
+        std::memcpy(mesh.vertices.data(), vertices.data<float>(), vertices.count() * sizeof(float));
+    mesh.triangles.resize(triangles.extent(0));
+    const int32_t* source = triangles.data<int32_t>();
+    for (size_t row = 0; row < mesh.triangles.size(); ++row) {
+        for (int corner = 0; corner < 3; ++corner) {
+            const int32_t vertex = source[3 * row + corner];
+            if (vertex < 0 || vertex >= vertices.extent(0))
+                throw ArgumentError(row_text("triangles", row) + "has vertex index " +
+                                    std::to_string(vertex) + ", vertices has " +
+                                    std::to_string(vertices.extent(0)) + " rows");
+            mesh.triangles[row].vertex[corner] = vertex;
+        }
+    }
+    return mesh;
+}
+
+void check_slots(const std::vector<int32_t>& slots) {
+    for (size_t row = 0; row < slots.size(); ++row)
+        if (slots[row] < 0)
+            throw ArgumentError(row_text("slots", row) + "is " + std::to_string(slots[row]) +
+                                ", expected 0 or more");
+}
+
+PyObject* add_mesh_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        PyObject *vertices, *triangles, *normals = nullptr, *uvs = nullptr, *slots = nullptr;
+        const char* const names[] = {"vertices", "triangles", "normals", "uvs", "slots", nullptr};
+        parse_arguments(args, kwargs, "OO|OOO", names, &vertices, &triangles, &normals, &uvs,
+                        &slots);
+        Scene& scene = scene_to_change(self);
+        const Buffer points = Buffer::of<float>(vertices, "vertices", {kAnyExtent, 3});
+        const Buffer indices = Buffer::of<int32_t>(triangles, "triangles", {kAnyExtent, 3});
+        const int64_t count = indices.extent(0);
+        Mesh mesh = copy_mesh(points, indices);
+        MeshAttributes attributes;
+        attributes.normals = copy_floats(optional_buffer<float>(normals, "normals", {count, 3, 3}));
+        attributes.uvs = copy_floats(optional_buffer<float>(uvs, "uvs", {count, 3, 2}));
+        attributes.slots = copy_ints(optional_buffer<int32_t>(slots, "slots", {count}));
+        check_slots(attributes.slots);
+        scene.attributes.push_back(std::move(attributes));
+        return checked(PyLong_FromLong(add_mesh(scene.world, std::move(mesh))));
+    });
+}
+
+/// `source`, 12 numbers, as a map; `row` names it in the message of the ArgumentError that a
+/// singular or non-finite one gives.
+Transform checked_transform(const float* source, const char* name, int64_t row) {
+    Transform transform;
+    std::memcpy(transform.m, source, sizeof transform.m);
+    for (int k = 0; k < 12; ++k)
+        if (!std::isfinite(source[k])) throw ArgumentError(row_text(name, row) + "is not finite");
+    const Transform back = inverse(transform);
+    bool invertible = determinant(transform) != 0;
+    for (int k = 0; k < 12; ++k) invertible = invertible && std::isfinite(back.m[k / 4][k % 4]);
+    if (!invertible) throw ArgumentError(row_text(name, row) + "is singular");
+    return transform;
+}
+
+/// Instances of one mesh that share `slot_materials`, to be added all or none.
+struct InstanceRequest {
+    long mesh;
+    std::vector<Transform> transforms;
+    std::vector<int32_t> slot_materials;
+};
+
+long add_request(Scene& scene, const InstanceRequest& request) {
+    const long mesh_count = static_cast<long>(scene.world.meshes.size());
+    if (request.mesh < 0 || request.mesh >= mesh_count)
+        throw ArgumentError("mesh: index " + std::to_string(request.mesh) + " of " +
+                            std::to_string(mesh_count) + " meshes");
+    const int64_t first_slot = static_cast<int64_t>(scene.slot_materials.size());
+    scene.slot_materials.insert(scene.slot_materials.end(), request.slot_materials.begin(),
+                                request.slot_materials.end());
+    const long first = static_cast<long>(scene.world.instances.size());
+    for (const Transform& transform : request.transforms) {
+        add_instance(scene.world, static_cast<int>(request.mesh), transform);
+        scene.first_slot.push_back(first_slot);
+        scene.slot_count.push_back(static_cast<int32_t>(request.slot_materials.size()));
+    }
+    return first;
+}
+
+PyObject* add_instance_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        InstanceRequest request{};
+        PyObject *transform = nullptr, *slot_materials = nullptr;
+        const char* const names[] = {"mesh", "transform", "slot_materials", nullptr};
+        parse_arguments(args, kwargs, "l|OO", names, &request.mesh, &transform, &slot_materials);
+        Scene& scene = scene_to_change(self);
+        const Buffer rows = optional_buffer<float>(transform, "transform", {3, 4});
+        request.transforms.push_back(rows.present()
+                                         ? checked_transform(rows.data<float>(), "transform", 0)
+                                         : identity_transform());
+        request.slot_materials =
+            copy_ints(optional_buffer<int32_t>(slot_materials, "slot_materials", {kAnyExtent}));
+        return checked(PyLong_FromLong(add_request(scene, request)));
+    });
+}
+
+PyObject* add_instances_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        InstanceRequest request{};
+        PyObject *transforms = nullptr, *slot_materials = nullptr;
+        const char* const names[] = {"mesh", "transforms", "slot_materials", nullptr};
+        parse_arguments(args, kwargs, "lO|O", names, &request.mesh, &transforms, &slot_materials);
+        Scene& scene = scene_to_change(self);
+        const Buffer rows = Buffer::of<float>(transforms, "transforms", {kAnyExtent, 3, 4});
+        for (int64_t row = 0; row < rows.extent(0); ++row)
+            request.transforms.push_back(
+                checked_transform(rows.data<float>() + 12 * row, "transforms", row));
+        request.slot_materials =
+            copy_ints(optional_buffer<int32_t>(slot_materials, "slot_materials", {kAnyExtent}));
+        return checked(PyLong_FromLong(add_request(scene, request)));
+    });
+}
+
+const char* accel_name(AccelKind kind) {
+    switch (kind) {
+        case AccelKind::bvh: return "bvh";
+        case AccelKind::grid: return "grid";
+        case AccelKind::none: return "none";
+        default: return "auto";
+    }
+}
+
+PyObject* build_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        int threads = 0;
+        const char* const names[] = {"threads", nullptr};
+        parse_arguments(args, kwargs, "|i", names, &threads);
+        Scene& scene = scene_to_change(self);
+        BuildStats stats;
+        {
+            const SceneChange change(self);
+            const WithoutGil unlocked;
+            stats = build_world(scene.world, threads);
+        }
+        return checked(Py_BuildValue(
+            "{s:d, s:L, s:L, s:L, s:L, s:L, s:s, s:s}", "seconds", stats.seconds, "bytes",
+            static_cast<long long>(stats.bytes), "nodes", static_cast<long long>(stats.nodes),
+            "triangles", static_cast<long long>(stats.triangles), "instances",
+            static_cast<long long>(stats.instances), "degenerate_triangles",
+            static_cast<long long>(stats.degenerate_triangles), "accel", accel_name(stats.accel),
+            "reason", stats.reason.c_str()));
+    });
+}
+
+}  // namespace
+
+PyMethodDef kSceneGeometryMethods[] = {
+    {"add_mesh", as_method(add_mesh_method), METH_VARARGS | METH_KEYWORDS,
+     "add_mesh(vertices, triangles, normals=None, uvs=None, slots=None) -> mesh index"},
+    {"add_instance", as_method(add_instance_method), METH_VARARGS | METH_KEYWORDS,
+     "add_instance(mesh, transform=None, slot_materials=None) -> instance index"},
+    {"add_instances", as_method(add_instances_method), METH_VARARGS | METH_KEYWORDS,
+     "add_instances(mesh, transforms, slot_materials=None) -> index of the first"},
+    {"build", as_method(build_method), METH_VARARGS | METH_KEYWORDS,
+     "build(threads=0) -> dict of statistics"},
+    {nullptr, nullptr, 0, nullptr}};
+
+}  // namespace trg::py
