@@ -1,0 +1,176 @@
+"""Evaluated Blender mesh -> MeshArrays, as fast as Blender's memory allows.
+
+Two ways give the same arrays: `safe` asks Blender to copy everything (foreach_get), `fast` looks at
+the loop triangles in place. The layout that `fast` relies on is not part of Blender's interface, so
+`fast_path_works` compares both on a small mesh and the caller keeps what it learnt.
+"""
+
+from __future__ import annotations
+
+import ctypes
+from dataclasses import dataclass
+from typing import Any
+
+import bpy
+import numpy as np
+from numpy.typing import NDArray
+
+from ..scene_arrays import Float32, Int32, MeshArrays
+
+
+@dataclass(frozen=True, slots=True)
+class MeshRequest:
+    """What the caller wants of a mesh."""
+
+    slot_count: int
+    """material slots; face indices beyond the last slot mean the last slot, as in Cycles"""
+    with_uvs: bool = False
+    uv_layer: str = ""
+    """name of a UV map; empty is the one that is active for rendering"""
+    fast: bool = True
+
+
+def read_mesh(mesh: bpy.types.Mesh, request: MeshRequest, warnings: list[str]) -> MeshArrays:
+    """Copies of the triangles of `mesh`; triangles at non-finite vertices are left out with a warning.
+
+    The arrays own their memory: they outlive the depsgraph. An empty mesh gives empty arrays.
+    """
+    mesh.calc_loop_triangles()
+    corners = _corner_triangles(mesh, request.fast)
+    triangles = np.take(_corner_vertices(mesh, request.fast), corners)
+    vertices = np.zeros(len(mesh.vertices) * 3, np.float32)
+    if len(vertices):
+        mesh.attributes["position"].data.foreach_get("vector", vertices)
+    vertices = vertices.reshape(-1, 3)
+    arrays = MeshArrays(
+        vertices=vertices,
+        triangles=triangles,
+        normals=_corner_normals(mesh, corners, triangles, request.fast),
+        uvs=_corner_uvs(mesh, corners, request, warnings) if request.with_uvs else None,
+        slots=_triangle_slots(mesh, request.slot_count),
+        origin=mesh.name,
+    )
+    return _without_broken_triangles(arrays, warnings)
+
+
+def fast_path_works() -> bool:
+    """True when the in-place views equal Blender's own copies, on a mesh of two quads."""
+    mesh = bpy.data.meshes.new(".trg_layout_check")
+    try:
+        points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 1), (2, 1, 1)]
+        mesh.from_pydata(points, [], [(0, 1, 2, 3), (1, 4, 5, 2)])
+        mesh.calc_loop_triangles()
+        packed = (
+            _is_packed(mesh.loop_triangles, 12)
+            and _is_packed(mesh.attributes[".corner_vert"].data, 4)
+            and _is_packed(mesh.vertex_normals, 12)
+        )
+        return packed and all(
+            np.array_equal(read(mesh, True), read(mesh, False))
+            for read in (_corner_triangles, _corner_vertices, _vertex_normals)
+        )
+    finally:
+        bpy.data.meshes.remove(mesh)
+
+
+def _is_packed(collection: bpy.types.bpy_prop_collection, stride: int) -> bool:
+    """Elements lie `stride` bytes apart, so that a view over all of them stays in bounds."""
+    first = collection[0].as_pointer()
+    return all(each.as_pointer() == first + stride * k for k, each in enumerate(collection))
+
+
+def _column(
+    collection: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int, fast: bool
+) -> NDArray[Any]:
+    """(n, width) values of property `name`: in place when `fast` (valid while the mesh is), else a copy."""
+    count = len(collection)
+    if not count:
+        return np.empty((0, width), dtype)
+    if fast:
+        kind = ctypes.c_int32 if dtype is np.int32 else ctypes.c_float
+        memory = (kind * (count * width)).from_address(collection[0].as_pointer())
+        return np.ctypeslib.as_array(memory).reshape(count, width)
+    flat = np.empty(count * width, dtype)
+    collection.foreach_get(name, flat)
+    return flat.reshape(count, width)
+
+
+def _corner_triangles(mesh: bpy.types.Mesh, fast: bool) -> Int32:
+    """(m, 3) corner indices of the triangles."""
+    return _column(mesh.loop_triangles, "loops", np.int32, 3, fast)
+
+
+def _corner_vertices(mesh: bpy.types.Mesh, fast: bool) -> Int32:
+    """(corners,) vertex of each corner."""
+    attribute = mesh.attributes.get(".corner_vert")
+    if attribute is None:
+        return _column(mesh.loops, "vertex_index", np.int32, 1, False).ravel()
+    return _column(attribute.data, "value", np.int32, 1, fast).ravel()
+
+
+def _vertex_normals(mesh: bpy.types.Mesh, fast: bool) -> Float32:
+    return _column(mesh.vertex_normals, "vector", np.float32, 3, fast)
+
+
+def _corner_normals(mesh: bpy.types.Mesh, corners: Int32, triangles: Int32, fast: bool) -> Float32 | None:
+    """(m, 3, 3) normals, or None when every face is flat."""
+    if mesh.normals_domain == "FACE" or not len(triangles):
+        return None
+    if mesh.normals_domain == "POINT":
+        return np.take(_vertex_normals(mesh, fast), triangles, axis=0)
+    normals = _column(mesh.corner_normals, "vector", np.float32, 3, False)
+    return np.take(normals, corners, axis=0)
+
+
+def _corner_uvs(
+    mesh: bpy.types.Mesh, corners: Int32, request: MeshRequest, warnings: list[str]
+) -> Float32 | None:
+    layer = mesh.uv_layers.get(request.uv_layer) if request.uv_layer else None
+    if layer is None and request.uv_layer:
+        warnings.append(f"mesh {mesh.name!r} has no UV map {request.uv_layer!r}: its render map is used")
+    if layer is None:
+        layer = next((each for each in mesh.uv_layers if each.active_render), None)
+    if layer is None:
+        return None
+    flat = np.empty(len(mesh.loops) * 2, np.float32)
+    layer.uv.foreach_get("vector", flat)
+    return np.take(flat.reshape(-1, 2), corners, axis=0)
+
+
+def _triangle_slots(mesh: bpy.types.Mesh, slot_count: int) -> Int32 | None:
+    """(m,) material slot of each triangle; None when all are slot 0."""
+    attribute = mesh.attributes.get("material_index")
+    if attribute is None or slot_count < 2:
+        return None
+    of_face = np.empty(len(mesh.polygons), np.int32)
+    attribute.data.foreach_get("value", of_face)
+    np.clip(of_face, 0, slot_count - 1, out=of_face)
+    if not of_face.any():
+        return None
+    faces = np.empty(len(mesh.loop_triangles), np.int32)
+    mesh.loop_triangle_polygons.foreach_get("value", faces)
+    return np.take(of_face, faces)
+
+
+def _without_broken_triangles(arrays: MeshArrays, warnings: list[str]) -> MeshArrays:
+    """Triangles that touch a NaN or infinite vertex are dropped, and said so."""
+    if np.isfinite(arrays.vertices.sum(dtype=np.float64)):
+        return arrays
+    bad = ~np.isfinite(arrays.vertices).all(axis=1)
+    if not bad.any():
+        return arrays
+    keep = ~bad[arrays.triangles].any(axis=1)
+    warnings.append(
+        f"mesh {arrays.origin!r}: {int(bad.sum())} vertices are not finite; "
+        f"{int((~keep).sum())} triangles that touch them are left out"
+    )
+    vertices = arrays.vertices.copy()
+    vertices[bad] = 0.0
+    return MeshArrays(
+        vertices=vertices,
+        triangles=arrays.triangles[keep],
+        normals=None if arrays.normals is None else arrays.normals[keep],
+        uvs=None if arrays.uvs is None else arrays.uvs[keep],
+        slots=None if arrays.slots is None else arrays.slots[keep],
+        origin=arrays.origin,
+    )

@@ -1,0 +1,84 @@
+"""One pass over the depsgraph's instances: meshes grouped with their materials, and lights."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+
+from ..scene_arrays import Float32
+
+WITHOUT_SURFACE = {"EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "CURVE", "FONT", "META", "SURFACE"}
+"""Kinds that show nothing themselves; the surface of the last four arrives as an instance of a mesh."""
+
+KIND_NAMES = {
+    "VOLUME": "volume",
+    "POINTCLOUD": "point cloud",
+    "CURVES": "hair curves",
+    "GPENCIL": "grease pencil",
+    "GREASEPENCIL": "grease pencil",
+    "LIGHT_PROBE": "light probe",
+}
+
+
+@dataclass(slots=True)
+class MeshGroup:
+    """Instances that share a mesh and their materials."""
+
+    mesh: bpy.types.Mesh
+    materials: tuple[bpy.types.Material | None, ...]
+    origin: str
+    rows: list[int] = field(default_factory=list)
+    """indices into Found.transforms"""
+
+
+@dataclass(slots=True)
+class Found:
+    groups: list[MeshGroup]
+    transforms: Float32
+    """(n, 3, 4) object to world of every instance of the depsgraph"""
+    lights: list[tuple[bpy.types.Object, int]]
+    """original-or-evaluated light object and its row in `transforms`"""
+
+
+def find_objects(depsgraph: bpy.types.Depsgraph, warnings: list[str]) -> Found:
+    """Everything visible to `depsgraph`, each kind that cannot be rendered named once."""
+    instances = depsgraph.object_instances
+    flat = np.empty(len(instances) * 16, np.float32)
+    instances.foreach_get("matrix_world", flat)
+    columns_first = flat.reshape(-1, 4, 4)
+    transforms = np.ascontiguousarray(columns_first.transpose(0, 2, 1)[:, :3])
+    groups: dict[tuple[int, ...], MeshGroup] = {}
+    lights: list[tuple[bpy.types.Object, int]] = []
+    refused: set[str] = set()
+    for row, instance in enumerate(instances):
+        owner = instance.object
+        kind = owner.type
+        if not instance.show_self or kind in WITHOUT_SURFACE:
+            continue
+        if kind == "MESH":
+            _add_mesh(groups, owner, row, warnings)
+        elif kind == "LIGHT":
+            source = instance.instance_object if instance.is_instance else owner
+            lights.append((source, row))
+        else:
+            refused.add(f"object {owner.name!r}: a {KIND_NAMES.get(kind, kind.lower())} is not rendered")
+    warnings.extend(sorted(refused))
+    return Found(list(groups.values()), transforms, lights)
+
+
+def _add_mesh(
+    groups: dict[tuple[int, ...], MeshGroup], owner: bpy.types.Object, row: int, warnings: list[str]
+) -> None:
+    mesh = owner.data
+    materials = tuple(slot.material for slot in owner.material_slots) or (None,)
+    key = (mesh.as_pointer(), *(0 if each is None else each.as_pointer() for each in materials))
+    group = groups.get(key)
+    if group is None:
+        group = groups[key] = MeshGroup(mesh, materials, owner.name)
+        if owner.is_holdout or owner.is_shadow_catcher:
+            warnings.append(f"object {owner.name!r}: holdout and shadow catcher are rendered as plain surfaces")
+        if not owner.visible_camera:
+            warnings.append(f"object {owner.name!r}: visibility by kind of ray is not supported")
+    group.rows.append(row)

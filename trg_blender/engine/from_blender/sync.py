@@ -1,0 +1,117 @@
+"""The whole scene in one call: the parts of this package put together."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import bpy
+import numpy as np
+from mathutils import Matrix
+
+from ..errors import SceneError
+from ..scene_arrays import Float32, InstanceArrays, MeshArrays, SceneArrays
+from .camera import read_camera
+from .lights import read_light
+from .materials import MaterialTable
+from .meshes import MeshRequest, fast_path_works, read_mesh
+from .objects import Found, MeshGroup, find_objects
+from .world import read_world
+
+FLAT_DETERMINANT = 1e-18
+"""Instances squeezed flatter than this are stored in world space: no renderer can invert them."""
+
+
+@dataclass(slots=True)
+class SceneReader:
+    """Reads depsgraphs; remembers only whether this Blender allows the fast way through its meshes."""
+
+    fast: bool = field(default_factory=fast_path_works)
+
+    def read(
+        self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, size: tuple[int, int]
+    ) -> SceneArrays:
+        """Arrays for a picture of `size` pixels; they own their memory.
+
+        `scene` is the evaluated scene. Raises SceneError when there is nothing to render from: no
+        camera, or a picture without pixels. Anything merely not supported is a line in `warnings`.
+        """
+        if size[0] < 1 or size[1] < 1:
+            raise SceneError(f"the picture of scene {scene.name!r} has no pixels ({size[0]} x {size[1]})")
+        warnings: list[str] = []
+        camera = read_camera(scene, depsgraph, size, warnings)
+        found = find_objects(depsgraph, warnings)
+        table = MaterialTable(warnings)
+        arrays = SceneArrays(
+            camera=camera,
+            world=read_world(scene.world, warnings),
+            transparent_film=scene.render.film_transparent,
+        )
+        _Meshes(arrays, table, self.fast, warnings).add_all(found)
+        for owner, row in found.lights:
+            light = read_light(owner, _matrix(found.transforms[row]), warnings)
+            if light is not None:
+                arrays.lights.append(light)
+        arrays.materials = table.rows
+        arrays.textures, arrays.images = table.textures.textures, table.textures.images
+        arrays.warnings = list(dict.fromkeys(warnings))
+        return arrays
+
+
+def _matrix(rows: Float32) -> Matrix:
+    return Matrix([*rows.tolist(), [0.0, 0.0, 0.0, 1.0]])
+
+
+@dataclass(slots=True)
+class _Meshes:
+    """Turns groups into meshes and instances; a mesh used by several groups is read once."""
+
+    arrays: SceneArrays
+    table: MaterialTable
+    fast: bool
+    warnings: list[str]
+    known: dict[tuple[int, int, str | None], int] = field(default_factory=dict)
+
+    def add_all(self, found: Found) -> None:
+        for group in found.groups:
+            self._add(group, found.transforms[group.rows])
+
+    def _add(self, group: MeshGroup, transforms: Float32) -> None:
+        slots = tuple(self.table.add(material) for material in group.materials)
+        index = self._mesh(group, slots)
+        mesh = self.arrays.meshes[index]
+        if not len(mesh.triangles):
+            return
+        finite = np.isfinite(transforms).all(axis=(1, 2))
+        if not finite.all():
+            self.warnings.append(f"object {group.origin!r}: a transform that is not finite is left out")
+            transforms = transforms[finite]
+        volume = np.abs(np.linalg.det(transforms[:, :, :3].astype(np.float64)))
+        solid = transforms[volume > FLAT_DETERMINANT]
+        materials = np.array(slots, np.int32)
+        if len(solid):
+            self.arrays.instances.append(
+                InstanceArrays(index, np.ascontiguousarray(solid), materials, group.origin)
+            )
+        for flat in transforms[volume <= FLAT_DETERMINANT]:
+            self._add_flat(mesh, flat, materials, group.origin)
+
+    def _add_flat(self, mesh: MeshArrays, transform: Float32, materials: np.ndarray, origin: str) -> None:
+        """One instance scaled to a sheet, a line or a point, as a mesh of its own in world space."""
+        if np.linalg.matrix_rank(transform[:, :3]) < 2:
+            return
+        vertices = mesh.vertices @ transform[:, :3].T + transform[:, 3]
+        baked = MeshArrays(vertices, mesh.triangles, None, mesh.uvs, mesh.slots, mesh.origin)
+        self.arrays.meshes.append(baked)
+        identity = np.eye(3, 4, dtype=np.float32)[None]
+        self.arrays.instances.append(
+            InstanceArrays(len(self.arrays.meshes) - 1, identity, materials, origin)
+        )
+
+    def _mesh(self, group: MeshGroup, slots: tuple[int, ...]) -> int:
+        uv_map = self.table.uv_map_of(slots)
+        key = (group.mesh.as_pointer(), len(slots), uv_map)
+        if key not in self.known:
+            request = MeshRequest(len(slots), uv_map is not None, uv_map or "", self.fast)
+            self.known[key] = len(self.arrays.meshes)
+            self.arrays.meshes.append(read_mesh(group.mesh, request, self.warnings))
+        return self.known[key]
