@@ -13,7 +13,7 @@ import numpy as np
 from mathutils import Matrix
 
 from ..scene_arrays import LIGHT_KINDS, Color, Light
-from .sockets import as_color, as_number, feeding_socket
+from .sockets import active_tree, as_color, as_number, feeding_socket
 
 FALLOFF_PROPERTY = "trg_falloff"
 """Custom property of a light object: three numbers, the paper's constant, linear, quadratic falloff."""
@@ -43,14 +43,15 @@ def _color(light: bpy.types.Light, name: str, warnings: list[str]) -> Color:
     tint = [scale * channel for channel in light.color]
     if getattr(light, "use_temperature", False):
         tint = [a * b for a, b in zip(tint, light.temperature_color, strict=True)]
-    if light.use_nodes and light.node_tree is not None:
-        emission = _emission_of_nodes(light, name, warnings)
+    tree = active_tree(light)
+    if tree is not None:
+        emission = _emission_of_nodes(tree, name, warnings)
         tint = [a * b for a, b in zip(tint, emission, strict=True)]
     return (tint[0], tint[1], tint[2])
 
 
-def _emission_of_nodes(light: bpy.types.Light, name: str, warnings: list[str]) -> Color:
-    output = light.node_tree.get_output_node("CYCLES")
+def _emission_of_nodes(tree: bpy.types.ShaderNodeTree, name: str, warnings: list[str]) -> Color:
+    output = tree.get_output_node("CYCLES")
     source = feeding_socket(output.inputs["Surface"]) if output is not None else None
     if source is None:
         return (0.0, 0.0, 0.0)

@@ -12,6 +12,7 @@ import bpy
 
 from ..scene_arrays import Material
 from .shaders import ShaderReader
+from .sockets import active_tree
 from .textures import TextureTable
 
 
@@ -55,8 +56,8 @@ class MaterialTable:
 def _read_material(material: bpy.types.Material | None, reader: ShaderReader) -> Material:
     if material is None:
         return Material(specular=0.0)
-    tree = material.node_tree
-    if tree is None or (bpy.app.version < (5, 0, 0) and not material.use_nodes):
+    tree = active_tree(material)
+    if tree is None:
         red, green, blue = material.diffuse_color[:3]
         return Material(red, green, blue, specular=0.0)
     output = tree.get_output_node("CYCLES")

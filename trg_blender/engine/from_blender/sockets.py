@@ -9,6 +9,15 @@ import bpy
 from ..scene_arrays import Color
 
 
+def active_tree(
+    owner: bpy.types.Material | bpy.types.Light | bpy.types.World,
+) -> bpy.types.ShaderNodeTree | None:
+    """The shader nodes that `owner` is rendered with; since Blender 5 it always uses those it has."""
+    if owner.node_tree is None or (bpy.app.version < (5, 0, 0) and not owner.use_nodes):
+        return None
+    return owner.node_tree
+
+
 def feeding_socket(socket: bpy.types.NodeSocket) -> bpy.types.NodeSocket | None:
     """The output that feeds `socket`, through reroutes; None when nothing valid is plugged in."""
     seen = 0

@@ -5,15 +5,15 @@ from __future__ import annotations
 import bpy
 
 from ..scene_arrays import Color
-from .sockets import as_color, as_number, constant_of, feeding_socket
+from .sockets import active_tree, as_color, as_number, constant_of, feeding_socket
 
 
 def read_world(world: bpy.types.World | None, warnings: list[str]) -> Color:
     """Radiance of the background: Background node colour times strength; black without a world."""
     if world is None:
         return (0.0, 0.0, 0.0)
-    tree = world.node_tree
-    if tree is None or (bpy.app.version < (5, 0, 0) and not world.use_nodes):
+    tree = active_tree(world)
+    if tree is None:
         return as_color(world.color)
     output = tree.get_output_node("CYCLES")
     if output is None:
