@@ -1,0 +1,102 @@
+"""How far the picture is from the truth, told from the spread of its replicates.
+
+The replicates are independent pictures of the same scene; their mean is the picture. Jackknife: Efron
+and Tibshirani 1993, chapter 11, over replicates, on the logarithm of the mean squared error, which keeps
+the interval positive and near symmetric.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .scene_arrays import Float64
+
+RELATIVE_FLOOR = 0.01
+"""Added to the squared picture below relMSE."""
+STUDENT_95 = {1: 12.7062, 2: 4.3027, 3: 3.1824, 4: 2.7764, 5: 2.5706, 6: 2.4469, 7: 2.3646}
+"""Two-sided 95 % points of Student's t by degrees of freedom."""
+
+
+@dataclass(frozen=True, slots=True)
+class PictureError:
+    """Over all pixels and linear RGB; None where too few replicates have samples to tell."""
+
+    rmse: float | None = None
+    ci95: tuple[float, float] | None = None
+    relmse: float | None = None
+
+
+def measure_error(sums: Float64, counts: NDArray[np.int64]) -> dict[str, Any]:
+    """The error material of a job, from replicate sums (r, h, w, 3) and samples (r,).
+
+    Keys: `replicates` that have samples; `mse`, the mean variance of the picture; `relmse`, the same over
+    picture^2 + 0.01; `delete_one_mse`, the mse without each replicate. None below two replicates.
+    """
+    used = counts > 0
+    sums, counts = sums[used], counts[used].astype(np.float64)
+    replicates = len(counts)
+    if replicates < 2:
+        return {"replicates": replicates, "mse": None, "relmse": None, "delete_one_mse": ()}
+    variance, mean = variance_of_mean(sums, counts)
+    delete_one = ()
+    if replicates > 2:
+        rows = np.arange(replicates)
+        delete_one = tuple(float(variance_of_mean(sums[rows != r], counts[rows != r])[0].mean()) for r in rows)
+    relative = variance / (mean * mean + RELATIVE_FLOOR)
+    return {"replicates": replicates, "mse": float(variance.mean()), "relmse": float(relative.mean()),
+            "delete_one_mse": delete_one}
+
+
+def variance_of_mean(sums: Float64, counts: Float64) -> tuple[Float64, Float64]:
+    """Unbiased variance of the mean of all samples, and that mean, a value a pixel and channel.
+
+    Replicate means have variance sigma^2 / n_r, hence the weights.
+    """
+    weights = counts[:, None, None, None]
+    mean = sums.sum(axis=0) / counts.sum()
+    spread = (weights * (sums / weights - mean) ** 2).sum(axis=0)
+    return spread / ((len(counts) - 1) * counts.sum()), mean
+
+
+def estimate_error(material: Mapping[str, Any]) -> PictureError:
+    """Turns the error material of a job into RMSE with its 95 % interval, and relMSE."""
+    mse = material["mse"]
+    if mse is None:
+        return PictureError()
+    interval = jackknife_interval(mse, material["delete_one_mse"])
+    return PictureError(math.sqrt(max(mse, 0.0)), interval, material["relmse"])
+
+
+def jackknife_interval(mse: float, delete_one: tuple[float, ...]) -> tuple[float, float] | None:
+    """95 % interval of the RMSE; None below three replicates.
+
+    A common factor on all of `delete_one` does not matter.
+    """
+    count = len(delete_one)
+    if count < 3:
+        return None
+    if mse <= 0.0:
+        return (0.0, 0.0)
+    # One replicate that holds all the noise would have log 0: it is held at a share of the whole.
+    logs = np.log(np.maximum(np.asarray(delete_one, dtype=np.float64), 1e-6 * mse))
+    spread = (count - 1) / count * float(((logs - logs.mean()) ** 2).sum())
+    half_width = 0.5 * STUDENT_95[min(count - 1, 7)] * math.sqrt(spread)
+    rmse = math.sqrt(mse)
+    return (rmse * math.exp(-half_width), rmse * math.exp(half_width))
+
+
+def rmse(picture: Float64, truth: Float64) -> float:
+    """Root of the mean squared difference over all values."""
+    return math.sqrt(float(np.mean((np.asarray(picture, dtype=np.float64) - truth) ** 2)))
+
+
+def relmse(picture: Float64, truth: Float64) -> float:
+    """Mean of (picture - truth)^2 / (truth^2 + 0.01)."""
+    squared = (np.asarray(picture, dtype=np.float64) - truth) ** 2
+    return float(np.mean(squared / (np.asarray(truth, dtype=np.float64) ** 2 + RELATIVE_FLOOR)))

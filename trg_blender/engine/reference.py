@@ -1,0 +1,178 @@
+"""The reference renderer: a second, independent implementation of docs/architecture.md, section 4.
+
+Numpy in float64 on the triangles that Embree finds; simple and slow, with random numbers of its own. The
+files `reference_*.py` are its parts, `reference_path.py` the integrator.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .reference_camera import CameraRays, build_camera_rays
+from .reference_path import Estimate, RayCounts, World, build_world, trace_paths
+from .reference_scene import MISS
+from .scene_arrays import Float64, RenderSettings, SceneArrays
+
+REPLICATES = 8
+BATCH = 16384
+"""Paths that walk together: small enough to notice a cancel a few times a second."""
+FAR_DEPTH = 1e10
+"""Depth where nothing is."""
+
+
+@dataclass(slots=True)
+class ReferenceFilm:
+    """Float64 sums over samples; row 0 is the bottom row."""
+
+    sums: Float64
+    """(8, h, w, 3) radiance, one plane a replicate"""
+    counts: NDArray[np.int64]
+    """(8,) samples of each pixel in each replicate"""
+    coverage: Float64
+    """(h, w) camera rays that hit"""
+    normals: Float64
+    """(h, w, 3)"""
+    depth: Float64
+    """(h, w) distance along -Z at the pixel's centre, FAR_DEPTH for a miss"""
+    rays: RayCounts = field(default_factory=RayCounts)
+    rejected_samples: int = 0
+
+    @property
+    def samples(self) -> int:
+        return int(self.counts.sum())
+
+    def mean(self, sums: Float64) -> Float64:
+        return sums / max(self.samples, 1)
+
+
+def render_reference(scene: SceneArrays, settings: RenderSettings,
+                     progress: Callable[[ReferenceFilm], None] | None = None,
+                     cancelled: Callable[[], bool] | None = None) -> ReferenceFilm:
+    """The film after `settings.samples` samples a pixel, or what there is when `cancelled` says so.
+
+    `progress` sees the film after each step. Raises ImportError without embreex.
+    """
+    world = build_world(scene)
+    film = make_film(world, settings)
+    for step, batch in expose(world, settings, cancelled or (lambda: False)):
+        add_estimate(film, step, batch)
+        if progress is not None:
+            progress(film)
+    return film
+
+
+@dataclass(frozen=True, slots=True)
+class Window:
+    """The part of the picture that is rendered."""
+
+    x_min: int
+    y_min: int
+    width: int
+    height: int
+
+
+def film_window(settings: RenderSettings) -> Window:
+    x_min, y_min, x_max, y_max = settings.border or (0, 0, settings.width, settings.height)
+    return Window(x_min, y_min, x_max - x_min, y_max - y_min)
+
+
+def make_film(world: World, settings: RenderSettings) -> ReferenceFilm:
+    """An empty film with its depth pass."""
+    window = film_window(settings)
+    shape = (window.height, window.width)
+    pixels = np.arange(window.width * window.height)
+    depth = np.full(len(pixels), FAR_DEPTH)
+    for first in range(0, len(pixels), BATCH):
+        part = pixels[first:first + BATCH]
+        camera = pixel_rays(world.scene, settings, part, np.full((len(part), 2), 0.5))
+        hits = world.traced.intersect(camera.rays)
+        found = (camera.near + np.where(hits.triangle != MISS, hits.t, 0.0)) * camera.depth_per_length
+        depth[part] = np.where(hits.triangle != MISS, found, FAR_DEPTH)
+    zero = np.zeros((*shape, 3))
+    return ReferenceFilm(np.zeros((REPLICATES, *shape, 3)), np.zeros(REPLICATES, np.int64), np.zeros(shape),
+                         zero, depth.reshape(shape))
+
+
+def pixel_rays(scene: SceneArrays, settings: RenderSettings, pixels: NDArray[np.int64],
+               place: Float64) -> CameraRays:
+    """Camera rays through `place` (n, 2) within the film's pixels, which are numbered row by row."""
+    window = film_window(settings)
+    x = window.x_min + pixels % window.width + place[:, 0]
+    y = window.y_min + pixels // window.width + place[:, 1]
+    return build_camera_rays(scene.camera, (settings.width, settings.height), x, y)
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """The next samples of one replicate, for every pixel."""
+
+    replicate: int
+    samples: int
+
+
+def plan_steps(samples: int, pixels: int) -> Iterator[Step]:
+    """Replicates in turn; sample k belongs to replicate k mod 8. Small pictures take several at once."""
+    done, each, largest = 0, 1, max(1, BATCH // max(pixels, 1))
+    while done < samples:
+        until = min(samples, done + REPLICATES * each)
+        for replicate in range(REPLICATES):
+            count = share_of(replicate, until) - share_of(replicate, done)
+            if count > 0:
+                yield Step(replicate, count)
+        done, each = until, min(2 * each, largest)
+
+
+def share_of(replicate: int, samples: int) -> int:
+    """How many of the first `samples` samples belong to `replicate`."""
+    return (samples - replicate + REPLICATES - 1) // REPLICATES if samples > replicate else 0
+
+
+def expose(world: World, settings: RenderSettings,
+           cancelled: Callable[[], bool]) -> Iterator[tuple[Step, Estimate]]:
+    """Step after step what to add to the film; ends early when cancelled, without a half step."""
+    window = film_window(settings)
+    pixels = window.width * window.height
+    generators = [np.random.Generator(np.random.Philox(key=np.array([settings.seed % 2**64, r], dtype=np.uint64)))
+                  for r in range(REPLICATES)]
+    for step in plan_steps(settings.samples, pixels):
+        batch = expose_step(world, settings, step.samples, generators[step.replicate], cancelled)
+        if batch is None:
+            return
+        yield step, batch
+
+
+def expose_step(world: World, settings: RenderSettings, samples: int, rng: np.random.Generator,
+                cancelled: Callable[[], bool]) -> Estimate | None:
+    """`samples` samples of every pixel, pixel by pixel in a row; None when cancelled."""
+    window = film_window(settings)
+    index = np.repeat(np.arange(window.width * window.height), samples)
+    parts = []
+    for first in range(0, len(index), BATCH):
+        if cancelled():
+            return None
+        part = index[first:first + BATCH]
+        camera = pixel_rays(world.scene, settings, part, rng.random((len(part), 2)))
+        parts.append(trace_paths(world, camera, settings.max_bounces, rng))
+    rays = RayCounts(sum(p.rays.camera for p in parts), sum(p.rays.shadow for p in parts),
+                     sum(p.rays.bounce for p in parts))
+    return Estimate(np.concatenate([p.radiance for p in parts]), np.concatenate([p.hit for p in parts]),
+                    np.concatenate([p.normal for p in parts]), rays)
+
+
+def add_estimate(film: ReferenceFilm, step: Step, batch: Estimate) -> None:
+    """Sums the samples of each pixel; a sample that is not finite is dropped and counted."""
+    height, width = film.depth.shape
+    finite = np.isfinite(batch.radiance).all(axis=1)
+    radiance = np.where(finite[:, None], batch.radiance, 0.0)
+    film.rejected_samples += int((~finite).sum())
+    film.sums[step.replicate] += radiance.reshape(height, width, step.samples, 3).sum(axis=2)
+    film.coverage += batch.hit.reshape(height, width, step.samples).sum(axis=2)
+    film.normals += batch.normal.reshape(height, width, step.samples, 3).sum(axis=2)
+    film.counts[step.replicate] += step.samples
+    film.rays.camera += batch.rays.camera
+    film.rays.shadow += batch.rays.shadow
+    film.rays.bounce += batch.rays.bounce

@@ -1,0 +1,175 @@
+"""The path integrator of the reference renderer: docs/architecture.md, section 4, read aloud in numpy.
+
+A batch of paths walks together, one loop turn a segment; paths that end drop out of the arrays.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .reference_bsdf import Bsdf, build_bsdf, evaluate_bsdf, sample_bsdf
+from .reference_camera import CameraRays
+from .reference_emission import Glow, build_glow, pdf_glow, sample_glow
+from .reference_lights import LightSample, hit_light, sample_light
+from .reference_math import mis_weight
+from .reference_scene import FAR, MISS, Hits, Rays, TracedScene, build_traced_scene
+from .reference_surface import MaterialTable, Surface, build_material_table, build_surface
+from .scene_arrays import Float64, SceneArrays
+
+ROULETTE_START = 3
+"""Segments before Russian roulette begins."""
+
+
+@dataclass(frozen=True, slots=True)
+class World:
+    """Everything that paths meet."""
+
+    scene: SceneArrays
+    traced: TracedScene
+    materials: MaterialTable
+    glow: Glow | None
+    color: Float64
+
+
+@dataclass(slots=True)
+class RayCounts:
+    camera: int = 0
+    shadow: int = 0
+    bounce: int = 0
+
+
+@dataclass(slots=True)
+class Estimate:
+    """What a batch of n paths brought home."""
+
+    radiance: Float64
+    """(n, 3)"""
+    hit: NDArray[np.bool_]
+    """(n,) whether the camera ray met a surface"""
+    normal: Float64
+    """(n, 3) shading normal of the first hit, 0 for a miss"""
+    rays: RayCounts = field(default_factory=RayCounts)
+
+
+@dataclass(slots=True)
+class Paths:
+    """The paths still under way; `index` says which of the batch each is."""
+
+    rays: Rays
+    throughput: Float64
+    pdf: Float64
+    """(n,) density of the direction by the surface it left; inf after a delta and from the camera"""
+    index: NDArray[np.int64]
+
+
+def build_world(scene: SceneArrays) -> World:
+    """Raises ImportError without embreex."""
+    traced = build_traced_scene(scene)
+    materials = build_material_table(scene)
+    glow = build_glow(traced.triangles, materials)
+    return World(scene, traced, materials, glow, np.asarray(scene.world, dtype=np.float64))
+
+
+def trace_paths(world: World, camera: CameraRays, max_bounces: int, rng: np.random.Generator) -> Estimate:
+    """One sample for each camera ray."""
+    count = len(camera.near)
+    estimate = Estimate(np.zeros((count, 3)), np.zeros(count, dtype=bool), np.zeros((count, 3)))
+    paths = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count))
+    for segment in range(max_bounces + 2):
+        if len(paths.index) == 0:
+            break
+        hits = world.traced.intersect(paths.rays)
+        if segment == 0:
+            estimate.rays.camera += count
+        else:
+            estimate.rays.bounce += len(paths.index)
+            collect_lights(world, paths, hits, estimate)
+        collect_world(world, paths, hits, estimate)
+        paths, hits = keep(paths, hits, hits.triangle != MISS)
+        surface = build_surface(world.traced.triangles, world.materials, hits, -paths.rays.direction)
+        if segment == 0:
+            estimate.hit[paths.index] = True
+            estimate.normal[paths.index] = surface.ns
+        collect_emission(world, paths, hits, surface, estimate)
+        # The ray after the last scattering only collects emission.
+        if segment == max_bounces + 1:
+            break
+        bsdf = build_bsdf(surface)
+        gather_direct_light(world, paths, bsdf, rng, estimate)
+        paths = scatter(paths, bsdf, rng, roulette=segment >= ROULETTE_START)
+    return estimate
+
+
+def keep(paths: Paths, hits: Hits, rows: NDArray[np.bool_]) -> tuple[Paths, Hits]:
+    """The paths and hits of some rows only."""
+    rays = Rays(paths.rays.origin[rows], paths.rays.direction[rows], paths.rays.far[rows])
+    kept = Paths(rays, paths.throughput[rows], paths.pdf[rows], paths.index[rows])
+    return kept, Hits(hits.triangle[rows], hits.t[rows], hits.u[rows], hits.v[rows])
+
+
+def collect_world(world: World, paths: Paths, hits: Hits, estimate: Estimate) -> None:
+    """Adds the world where rays leave the scene: only bounces find it, so nothing is to be shared."""
+    missed = hits.triangle == MISS
+    estimate.radiance[paths.index[missed]] += paths.throughput[missed] * world.color
+
+
+def collect_lights(world: World, paths: Paths, hits: Hits, estimate: Estimate) -> None:
+    """Adds the lights with extent that bounce rays cross on their way."""
+    for light in world.scene.lights:
+        seen = hit_light(light, paths.rays.origin, paths.rays.direction, hits.t)
+        if seen is not None:
+            weight = mis_weight(paths.pdf, seen.pdf)[:, None]
+            estimate.radiance[paths.index] += paths.throughput * seen.radiance * weight
+
+
+def collect_emission(world: World, paths: Paths, hits: Hits, surface: Surface, estimate: Estimate) -> None:
+    """Adds the glow of the surface that was hit."""
+    if world.glow is None:
+        return
+    other = pdf_glow(world.glow, world.traced.triangles, hits.triangle, paths.rays.direction, hits.t)
+    weight = mis_weight(paths.pdf, other)[:, None]
+    estimate.radiance[paths.index] += paths.throughput * surface.material.emission * weight
+
+
+def gather_direct_light(world: World, paths: Paths, bsdf: Bsdf, rng: np.random.Generator,
+                        estimate: Estimate) -> None:
+    """Next-event estimation: one sample of every light and one of all glowing triangles together."""
+    position = bsdf.surface.position
+    for light in world.scene.lights:
+        add_light_sample(world, paths, bsdf, sample_light(light, position, rng), estimate)
+    if world.glow is not None:
+        sample = sample_glow(world.glow, world.traced.triangles, world.materials, position, rng)
+        add_light_sample(world, paths, bsdf, sample, estimate)
+
+
+def add_light_sample(world: World, paths: Paths, bsdf: Bsdf, sample: LightSample, estimate: Estimate) -> None:
+    """Adds one light's sample where it is worth a shadow ray and nothing stands between."""
+    value, pdf = evaluate_bsdf(bsdf, sample.wi)
+    weight = mis_weight(sample.pdf, pdf)[:, None]
+    light = paths.throughput * value * sample.radiance * weight
+    rows = np.any(light != 0.0, axis=1)
+    surface = bsdf.surface
+    start = surface.leave(sample.wi)[rows]
+    # Short of the light by as much as the ray starts off, lest a glowing triangle shadow itself.
+    distance = sample.distance[rows]
+    far = np.where(np.isinf(distance), FAR, distance * (1.0 - 1e-5) - 2.0 * surface.epsilon[rows])
+    blocked = world.traced.occluded(Rays(start, sample.wi[rows], np.maximum(far, 0.0)))
+    estimate.rays.shadow += int(rows.sum())
+    estimate.radiance[paths.index[rows]] += np.where(blocked[:, None], 0.0, light[rows])
+
+
+def scatter(paths: Paths, bsdf: Bsdf, rng: np.random.Generator, roulette: bool) -> Paths:
+    """The next segments; paths without weight end, dim ones by Russian roulette."""
+    scattered = sample_bsdf(bsdf, rng)
+    throughput = paths.throughput * scattered.weight
+    alive = np.any(throughput != 0.0, axis=1)
+    if roulette:
+        survival = np.clip(throughput.max(axis=1), 0.05, 0.95)
+        alive &= rng.random(len(survival)) < survival
+        throughput = throughput / survival[:, None]
+    start = bsdf.surface.leave(scattered.wi)[alive]
+    rays = Rays(start, scattered.wi[alive], np.full(int(alive.sum()), FAR))
+    return Paths(rays, throughput[alive], scattered.pdf[alive], paths.index[alive])

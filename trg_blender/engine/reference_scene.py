@@ -1,0 +1,158 @@
+"""The scene of the reference renderer: instances baked to world triangles, hits refined in float64.
+
+Embree finds which triangle a ray meets, in float32; distance and barycentrics are computed again from
+that triangle in float64, so that only the choice of the triangle rests on single precision.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .reference_math import dot, normalize
+from .scene_arrays import Float64, InstanceArrays, MeshArrays, SceneArrays
+
+MISS = -1
+FAR = 1e37
+"""Where Embree's rays end."""
+
+
+@dataclass(frozen=True, slots=True)
+class Triangles:
+    """All triangles of all instances in world space."""
+
+    corners: Float64
+    """(n, 3, 3)"""
+    outside: Float64
+    """(n, 3) unit geometric normals on the side that the artist sees as outside"""
+    normals: Float64
+    """(n, 3, 3) corner normals by the inverse transpose; rows of flat triangles repeat `outside`"""
+    uvs: Float64
+    """(n, 3, 2)"""
+    material: NDArray[np.int64]
+    """(n,) index into SceneArrays.materials"""
+    area: Float64
+    """(n,)"""
+
+
+@dataclass(frozen=True, slots=True)
+class Rays:
+    origin: Float64
+    """(n, 3)"""
+    direction: Float64
+    """(n, 3) unit"""
+    far: Float64
+    """(n,) hits beyond it do not count"""
+
+
+@dataclass(frozen=True, slots=True)
+class Hits:
+    triangle: NDArray[np.int64]
+    """(n,) or MISS"""
+    t: Float64
+    """(n,) inf for a miss"""
+    u: Float64
+    v: Float64
+    """weights of the second and third corner"""
+
+
+@dataclass(frozen=True, slots=True)
+class TracedScene:
+    triangles: Triangles
+    embree: Any
+    """embreex.rtcore_scene.EmbreeScene, or None when there is no triangle"""
+
+    def intersect(self, rays: Rays) -> Hits:
+        """The nearest hit of each ray."""
+        count = len(rays.origin)
+        if self.embree is None or count == 0:
+            miss = np.full(count, MISS, dtype=np.int64)
+            return Hits(miss, np.full(count, np.inf), np.zeros(count), np.zeros(count))
+        found = self._run(rays, "INTERSECT", output=True)
+        return refine_hits(self.triangles, rays, found["primID"].astype(np.int64))
+
+    def occluded(self, rays: Rays) -> NDArray[np.bool_]:
+        """Whether anything stands between origin and `far`."""
+        if self.embree is None or len(rays.origin) == 0:
+            return np.zeros(len(rays.origin), dtype=bool)
+        return np.asarray(self._run(rays, "OCCLUDED", output=False)) != MISS
+
+    def _run(self, rays: Rays, query: str, output: bool) -> Any:
+        origin = np.ascontiguousarray(rays.origin, dtype=np.float32)
+        direction = np.ascontiguousarray(rays.direction, dtype=np.float32)
+        far = np.minimum(rays.far, FAR).astype(np.float32)
+        return self.embree.run(origin, direction, far, query, output)
+
+
+def refine_hits(triangles: Triangles, rays: Rays, index: NDArray[np.int64]) -> Hits:
+    """Distance and barycentrics of the known triangles in float64 (Moeller and Trumbore 1997)."""
+    corners = triangles.corners[index]
+    edge1, edge2 = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    p = np.cross(rays.direction, edge2)
+    determinant = dot(edge1, p)
+    inverse = 1.0 / np.where(determinant == 0.0, np.inf, determinant)
+    offset = rays.origin - corners[:, 0]
+    q = np.cross(offset, edge1)
+    hit = index != MISS
+    t = np.where(hit, np.maximum(dot(edge2, q) * inverse, 0.0), np.inf)
+    return Hits(index, t, dot(offset, p) * inverse, dot(rays.direction, q) * inverse)
+
+
+def build_traced_scene(scene: SceneArrays) -> TracedScene:
+    """Bakes the instances and hands them to Embree.
+
+    Triangles with non-finite corners or without area are left out. Raises ImportError without embreex.
+    """
+    from embreex.mesh_construction import TriangleMesh
+    from embreex.rtcore_scene import EmbreeScene
+
+    parts = [bake_instance(scene.meshes[one.mesh], one, transform)
+             for one in scene.instances for transform in np.asarray(one.transforms, dtype=np.float64)]
+    triangles = join_triangles(parts)
+    if len(triangles.area) == 0:
+        return TracedScene(triangles, None)
+    embree = EmbreeScene(robust=True)
+    indices = np.arange(3 * len(triangles.area), dtype=np.int32).reshape(-1, 3)
+    TriangleMesh(embree, np.ascontiguousarray(triangles.corners.reshape(-1, 3), dtype=np.float32), indices)
+    return TracedScene(triangles, embree)
+
+
+def bake_instance(mesh: MeshArrays, instance: InstanceArrays, transform: Float64) -> Triangles:
+    """The world triangles of one copy; `transform` is (3, 4) object to world."""
+    linear = transform[:, :3]
+    world = np.asarray(mesh.vertices, dtype=np.float64) @ linear.T + transform[:, 3]
+    corners = world[mesh.triangles].reshape(-1, 3, 3)
+    # A mirrored copy turns the winding; the sign keeps the artist's outside.
+    side = -1.0 if np.linalg.det(linear) < 0.0 else 1.0
+    cross = side * np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    outside = normalize(cross)
+    count = len(corners)
+    if mesh.normals is None:
+        normals = np.repeat(outside[:, None, :], 3, axis=1)
+    else:
+        normals = np.asarray(mesh.normals, dtype=np.float64) @ np.linalg.pinv(linear)
+    uvs = np.zeros((count, 3, 2)) if mesh.uvs is None else np.asarray(mesh.uvs, dtype=np.float64)
+    slots = np.zeros(count, dtype=np.int64) if mesh.slots is None else mesh.slots
+    material = np.asarray(instance.slot_materials, dtype=np.int64)[slots].reshape(count)
+    area = 0.5 * np.linalg.norm(cross, axis=1)
+    with np.errstate(invalid="ignore"):
+        keep = np.isfinite(corners).all(axis=(1, 2)) & (area > 0.0)
+    return Triangles(corners[keep], outside[keep], normals[keep], uvs[keep], material[keep], area[keep])
+
+
+def join_triangles(parts: list[Triangles]) -> Triangles:
+    """One after the other; no part gives empty arrays."""
+    if not parts:
+        zero = np.zeros((0, 3, 3))
+        return Triangles(zero, np.zeros((0, 3)), zero, np.zeros((0, 3, 2)), np.zeros(0, np.int64), np.zeros(0))
+    return Triangles(
+        np.concatenate([part.corners for part in parts]),
+        np.concatenate([part.outside for part in parts]),
+        np.concatenate([part.normals for part in parts]),
+        np.concatenate([part.uvs for part in parts]),
+        np.concatenate([part.material for part in parts]),
+        np.concatenate([part.area for part in parts]),
+    )

@@ -1,0 +1,119 @@
+"""What a path finds where it lands: position, normals turned to the viewer, and the material there."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .reference_math import dot, normalize
+from .reference_scene import Hits, Triangles
+from .reference_textures import linear_image, look_up
+from .scene_arrays import Float64, SceneArrays
+
+IDEAL_ALPHA = 1e-3
+"""GGX below it is an ideal mirror."""
+GRAZING = 1e-4
+"""A shading normal that the viewer sees at a smaller cosine gives way to the geometric one."""
+
+
+@dataclass(frozen=True, slots=True)
+class MaterialTable:
+    """The material rows as columns, and the images they look into, made linear once."""
+
+    columns: dict[str, Float64]
+    scene: SceneArrays
+    images: list[Float64]
+
+
+@dataclass(frozen=True, slots=True)
+class Material:
+    """Material values at n points, textures applied."""
+
+    base: Float64
+    """(n, 3)"""
+    metallic: Float64
+    alpha: Float64
+    """GGX width"""
+    ior: Float64
+    specular: Float64
+    transmission: Float64
+    emission: Float64
+    """(n, 3) radiance"""
+
+
+@dataclass(frozen=True, slots=True)
+class Surface:
+    """n points on surfaces, each seen from `wo`."""
+
+    position: Float64
+    wo: Float64
+    """unit, towards the viewer"""
+    ng: Float64
+    """geometric normal, on the side of wo"""
+    ns: Float64
+    """shading normal, on the side of wo"""
+    outside: NDArray[np.bool_]
+    """whether wo is on the side that the artist sees as outside"""
+    material: Material
+    epsilon: Float64
+    """(n,) distance by which rays start off the surface"""
+
+    def leave(self, wi: Float64) -> Float64:
+        """Where a ray along `wi` starts: just off the surface, on the side it goes to."""
+        side = np.where(dot(wi, self.ng) < 0.0, -self.epsilon, self.epsilon)
+        return self.position + side[:, None] * self.ng
+
+
+def build_material_table(scene: SceneArrays) -> MaterialTable:
+    names = type(scene.materials[0]).__dataclass_fields__ if scene.materials else ()
+    columns = {name: np.array([getattr(row, name) for row in scene.materials], dtype=np.float64) for name in names}
+    return MaterialTable(columns, scene, [linear_image(image) for image in scene.images])
+
+
+def evaluate_material(table: MaterialTable, index: NDArray[np.int64], uv: Float64) -> Material:
+    """Rows `index` (n,) of the table at the texture places `uv` (n, 2)."""
+    column = {name: values[index] for name, values in table.columns.items()}
+    base = np.stack([column["base_r"], column["base_g"], column["base_b"]], axis=1)
+    emission = np.stack([column["emission_r"], column["emission_g"], column["emission_b"]], axis=1)
+    base = textured(table, column["base_texture"], uv, base)
+    emission = emission * textured(table, column["emission_texture"], uv, np.ones_like(emission))
+    roughness = textured(table, column["roughness_texture"], uv, column["roughness"][:, None].repeat(3, axis=1))[:, 0]
+    metallic = textured(table, column["metallic_texture"], uv, column["metallic"][:, None].repeat(3, axis=1))[:, 0]
+    return Material(base, metallic, roughness * roughness, column["ior"], column["specular"],
+                    column["transmission"], emission)
+
+
+def textured(table: MaterialTable, textures: Float64, uv: Float64, plain: Float64) -> Float64:
+    """`plain` (n, 3), replaced by the texture's value in the rows where `textures` names one."""
+    value = plain.copy()
+    for number in np.unique(textures[textures >= 0]).astype(int):
+        rows = textures == number
+        texture = table.scene.textures[number]
+        value[rows] = look_up(table.images[texture.image], texture, uv[rows])
+    return value
+
+
+def interpolate(corners: Float64, u: Float64, v: Float64) -> Float64:
+    """Values of three corners (n, 3, k) at barycentric (u, v)."""
+    return (1.0 - u - v)[:, None] * corners[:, 0] + u[:, None] * corners[:, 1] + v[:, None] * corners[:, 2]
+
+
+def build_surface(triangles: Triangles, table: MaterialTable, hits: Hits, wo: Float64) -> Surface:
+    """The surface at `hits`, which must all have hit."""
+    index = hits.triangle
+    position = interpolate(triangles.corners[index], hits.u, hits.v)
+    outside_normal = triangles.outside[index]
+    outside = dot(wo, outside_normal) >= 0.0
+    turn = np.where(outside, 1.0, -1.0)[:, None]
+    ng = outside_normal * turn
+    ns = normalize(interpolate(triangles.normals[index], hits.u, hits.v)) * turn
+    ns = np.where((dot(wo, ns) > GRAZING)[:, None], ns, ng)
+    uv = interpolate(triangles.uvs[index], hits.u, hits.v)
+    material = evaluate_material(table, triangles.material[index], uv)
+    # Embree works in float32: its error grows with the coordinates and with the size of the triangle.
+    corners = triangles.corners[index]
+    edge = np.max(np.abs(corners[:, 1:] - corners[:, :1]), axis=(1, 2))
+    epsilon = 1e-7 + 2e-6 * np.max(np.abs(position), axis=1) + 4e-7 * edge
+    return Surface(position, wo, ng, ns, outside, material, epsilon)
