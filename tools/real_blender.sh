@@ -167,40 +167,45 @@ kill "$server" 2>/dev/null
 exit "$status"
 '
 
-verb=${1:-}
-[ $# -gt 0 ] && shift
-version='' gui=0
-while [ $# -gt 0 ]; do
-    case $1 in
-        --version) version=${2:?--version needs sid or trixie}; shift 2 ;;
-        --gui) gui=1; shift ;;
-        --) shift; break ;;
+main() {
+    local verb=${1:-} version='' gui=0
+    [ $# -gt 0 ] && shift
+    while [ $# -gt 0 ]; do
+        case $1 in
+            --version) version=${2:?--version needs sid or trixie}; shift 2 ;;
+            --gui) gui=1; shift ;;
+            --) shift; break ;;
+            *) usage ;;
+        esac
+    done
+    case $version in '' | sid | trixie) ;; *) usage ;; esac
+
+    case $verb in
+        install) install "$version" ;;
+        path)
+            version=$(choose_installed "$version")
+            echo "$CACHE/$version"
+            ;;
+        run)
+            [ $# -gt 0 ] || usage
+            version=$(choose_installed "$version")
+            require_root
+            if [ "$gui" = 1 ]; then
+                enter "$CACHE/$version" bash -c "$GUI" gui "$@"
+            else
+                enter "$CACHE/$version" "$@"
+            fi
+            ;;
+        shell)
+            version=$(choose_installed "$version")
+            require_root
+            enter "$CACHE/$version" bash -i
+            ;;
+        remove) rm -rf --one-file-system "${CACHE:?}/${version:?remove needs --version}" ;;
         *) usage ;;
     esac
-done
-case $version in '' | sid | trixie) ;; *) usage ;; esac
+}
 
-case $verb in
-    install) install "$version" ;;
-    path)
-        version=$(choose_installed "$version")
-        echo "$CACHE/$version"
-        ;;
-    run)
-        [ $# -gt 0 ] || usage
-        version=$(choose_installed "$version")
-        require_root
-        if [ "$gui" = 1 ]; then
-            enter "$CACHE/$version" bash -c "$GUI" gui "$@"
-        else
-            enter "$CACHE/$version" "$@"
-        fi
-        ;;
-    shell)
-        version=$(choose_installed "$version")
-        require_root
-        enter "$CACHE/$version" bash -i
-        ;;
-    remove) rm -rf --one-file-system "${CACHE:?}/${version:?remove needs --version}" ;;
-    *) usage ;;
-esac
+# Read whole before it runs, so that the file may change meanwhile.
+main "$@"
+exit

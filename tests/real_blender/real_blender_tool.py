@@ -1,0 +1,70 @@
+"""Running the real Blender of tools/real_blender.sh."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+TOOL = ROOT / "tools" / "real_blender.sh"
+INSIDE = Path(__file__).resolve().parent / "inside"
+VERSIONS = ("sid", "trixie")
+
+
+@dataclass(frozen=True, slots=True)
+class Finished:
+    """How a run of Blender ended; `text` is all that it printed."""
+
+    status: int
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class RealBlender:
+    """One installed Blender with preferences and extensions under `user_directory`."""
+
+    version: str
+    user_directory: Path
+
+    def run(self, *arguments: str | Path, gui: bool = False, timeout_s: float = 300.0) -> Finished:
+        """Runs `blender ARGUMENTS`; fails the test when it takes longer than `timeout_s`."""
+        command = [
+            TOOL,
+            "run",
+            "--version",
+            self.version,
+            *(["--gui"] if gui else []),
+            "--",
+            "blender",
+            *arguments,
+        ]
+        environment = os.environ | {"BLENDER_USER_RESOURCES": str(self.user_directory)}
+        done = subprocess.run(
+            [str(part) for part in command],
+            cwd=ROOT,
+            env=environment,
+            text=True,
+            check=False,
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            timeout=timeout_s,
+        )
+        return Finished(done.returncode, done.stdout)
+
+    def script(self, name: str, *arguments: str | Path) -> Finished:
+        """Runs a script of `inside/` without a window, with `arguments` after `--`."""
+        return self.run("-b", "--python-exit-code", "9", "--python", INSIDE / name, "--", *arguments)
+
+
+def is_installed(version: str) -> bool:
+    """Whether `tools/real_blender.sh install` has finished for this version."""
+    done = subprocess.run([str(TOOL), "path", "--version", version], capture_output=True, check=False)
+    return done.returncode == 0
+
+
+def installed_versions() -> list[str]:
+    """The versions to test; one placeholder, which skips or fails, when there is none."""
+    return [version for version in VERSIONS if is_installed(version)] or ["none"]
