@@ -1,0 +1,1 @@
+"""The subcommands of `trg`, one module each: `add_parser(subparsers)` and `run(args) -> int`."""

@@ -1,0 +1,50 @@
+"""SceneArrays -> trg_native.Scene."""
+
+from __future__ import annotations
+
+from types import ModuleType
+from typing import Any
+
+import numpy as np
+
+from .scene_arrays import (
+    LIGHT_FIELDS,
+    MATERIAL_FIELDS,
+    TEXTURE_FIELDS,
+    MeshArrays,
+    RenderSettings,
+    SceneArrays,
+    pack_table,
+)
+
+
+def build_native_scene(native: ModuleType, scene: SceneArrays, settings: RenderSettings) -> tuple[Any, dict[str, Any]]:
+    """The built native scene and its build statistics. The arrays are copied."""
+    result = native.Scene(accel=settings.accel, triangle_test=settings.triangle_test)
+    for mesh in scene.meshes:
+        add_mesh(result, mesh)
+    for instance in scene.instances:
+        transforms = np.ascontiguousarray(instance.transforms, dtype=np.float32)
+        result.add_instances(instance.mesh, transforms, np.ascontiguousarray(instance.slot_materials, dtype=np.int32))
+    for image in scene.images:
+        kind = np.uint8 if image.pixels.dtype == np.uint8 else np.float32
+        result.add_image(np.ascontiguousarray(image.pixels, dtype=kind), image.srgb)
+    result.set_textures(pack_table(scene.textures, TEXTURE_FIELDS))
+    result.set_materials(pack_table(scene.materials, MATERIAL_FIELDS))
+    result.set_lights(pack_table(scene.lights, LIGHT_FIELDS))
+    result.set_world(*(float(value) for value in scene.world))
+    camera = scene.camera
+    matrix = np.ascontiguousarray(camera.matrix, dtype=np.float64)
+    window = np.array(camera.window, dtype=np.float64)
+    result.set_camera(camera.kind, matrix, window, camera.clip_start, camera.clip_end)
+    return result, dict(result.build(settings.threads))
+
+
+def add_mesh(result: Any, mesh: MeshArrays) -> None:
+    result.add_mesh(
+        np.ascontiguousarray(mesh.vertices, dtype=np.float32),
+        np.ascontiguousarray(mesh.triangles, dtype=np.int32),
+        None if mesh.normals is None else np.ascontiguousarray(mesh.normals, dtype=np.float32),
+        None if mesh.uvs is None else np.ascontiguousarray(mesh.uvs, dtype=np.float32),
+        None if mesh.slots is None else np.ascontiguousarray(mesh.slots, dtype=np.int32),
+    )

@@ -1,0 +1,173 @@
+"""The report of a render: what was done, how long it took, how wrong the picture is (docs/report.md)."""
+
+from __future__ import annotations
+
+import sys
+from dataclasses import dataclass, field
+from typing import Any
+
+from .. import __version__
+from .features import find_features
+from .image_error import PictureError
+from .scene_arrays import RenderSettings, SceneArrays
+
+
+@dataclass(frozen=True, slots=True)
+class HistoryEntry:
+    """The error at one moment; recorded whenever the samples have doubled."""
+
+    samples: float
+    seconds: float
+    error: PictureError
+
+
+@dataclass(frozen=True, slots=True)
+class Progress:
+    """A running render at one moment."""
+
+    done: bool
+    cancelled: bool
+    samples: float
+    target: int
+    rmse: float | None
+    rays_per_second: float
+    seconds: float
+    seconds_left: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class RenderFacts:
+    """What a finished or stopped render knows about itself."""
+
+    scene: SceneArrays
+    settings: RenderSettings
+    job: dict[str, Any]
+    """the last poll of the job"""
+    build: dict[str, Any]
+    """build statistics; `reason` of the accelerator and the like stay out of the report"""
+    error: PictureError
+    history: list[HistoryEntry] = field(default_factory=list)
+    warnings: list[str] = field(default_factory=list)
+    kernel_set: str | None = None
+    instruction_set: str | None = None
+    threads: int = 1
+
+
+def build_report(facts: RenderFacts) -> dict[str, Any]:
+    """The report as JSON-ready values; `file`, `frame`, `script` and `sync` wait for `with_source`."""
+    scene, settings, job = facts.scene, facts.settings, facts.job
+    seconds = {"script": None, "sync": None, "build": facts.build.get("seconds"), "trace": job["seconds"]}
+    return {
+        "version": __version__,
+        "file": None,
+        "frame": None,
+        "size": [settings.width, settings.height],
+        "device": settings.device,
+        "accel": facts.build.get("accel"),
+        "integrator": settings.integrator,
+        "aa": None,
+        "seed": settings.seed,
+        "threads": facts.threads,
+        "kernel_set": facts.kernel_set,
+        "instruction_set": facts.instruction_set,
+        "samples": job["samples"],
+        "seconds": {**seconds, "total": total_seconds(seconds)},
+        "rays": ray_section(job),
+        "error": error_section(facts),
+        "memory": {"geometry_bytes": geometry_bytes(scene), "accel_bytes": facts.build.get("bytes"),
+                   "peak_bytes": peak_bytes()},
+        "scene": scene_section(scene),
+        "features": feature_section(scene, settings),
+        "numerics": {"rejected_samples": job["rejected_samples"],
+                     "degenerate_triangles": facts.build.get("degenerate_triangles"), "clamped": 0},
+        "warnings": [*scene.warnings, *facts.warnings],
+    }
+
+
+def with_source(report: dict[str, Any], file: str | None, frame: int | None,
+                seconds: dict[str, float] | None = None) -> dict[str, Any]:
+    """A copy that names its file and frame; `seconds` may give `script` and `sync`."""
+    merged = {**report["seconds"], **(seconds or {})}
+    merged["total"] = total_seconds({key: value for key, value in merged.items() if key != "total"})
+    return {**report, "file": file, "frame": frame, "seconds": merged}
+
+
+def total_seconds(parts: dict[str, float | None]) -> float:
+    return sum(value for value in parts.values() if value is not None)
+
+
+def ray_section(job: dict[str, Any]) -> dict[str, Any]:
+    total = job["rays_camera"] + job["rays_shadow"] + job["rays_bounce"]
+    per_second = total / job["seconds"] if job["seconds"] > 0.0 else None
+    return {"camera": job["rays_camera"], "shadow": job["rays_shadow"], "bounce": job["rays_bounce"],
+            "total": total, "per_second": per_second}
+
+
+def error_section(facts: RenderFacts) -> dict[str, Any]:
+    history = [{"samples": entry.samples, "seconds": entry.seconds, "rmse": entry.error.rmse,
+                "ci95": interval_list(entry.error)} for entry in facts.history]
+    return {"rmse": facts.error.rmse, "ci95": interval_list(facts.error), "relmse": facts.error.relmse,
+            "target": None, "stopped_by": "cancel" if facts.job["cancelled"] else "samples", "history": history}
+
+
+def interval_list(error: PictureError) -> list[float] | None:
+    return None if error.ci95 is None else list(error.ci95)
+
+
+def scene_section(scene: SceneArrays) -> dict[str, int]:
+    triangles = sum(len(one.transforms) * len(scene.meshes[one.mesh].triangles) for one in scene.instances)
+    return {"triangles": triangles, "instances": sum(len(one.transforms) for one in scene.instances),
+            "lights": len(scene.lights), "materials": len(scene.materials), "textures": len(scene.textures)}
+
+
+def feature_section(scene: SceneArrays, settings: RenderSettings) -> dict[str, Any]:
+    used, left_out = find_features(scene, settings)
+    return {"used": used, "left_out": left_out, "saved_bytes": None}
+
+
+def geometry_bytes(scene: SceneArrays) -> int:
+    """Bytes of the scene's arrays: meshes, transforms, images."""
+    arrays = [array for mesh in scene.meshes
+              for array in (mesh.vertices, mesh.triangles, mesh.normals, mesh.uvs, mesh.slots) if array is not None]
+    arrays += [instance.transforms for instance in scene.instances]
+    arrays += [image.pixels for image in scene.images]
+    return sum(array.nbytes for array in arrays)
+
+
+def peak_bytes() -> int | None:
+    """The largest resident size of this process so far; None where the system does not tell."""
+    try:
+        import resource
+    except ImportError:
+        return None
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return int(peak) if sys.platform == "darwin" else int(peak) * 1024
+
+
+def format_progress(progress: Progress) -> str:
+    """One line: `sample 12/64, rmse 0.021, 3.4 Mrays/s, 00:04 left`; unknown parts are left out."""
+    parts = [f"sample {int(progress.samples)}/{progress.target}"]
+    if progress.rmse is not None:
+        parts.append(f"rmse {progress.rmse:.2g}")
+    if progress.rays_per_second > 0.0:
+        parts.append(f"{format_rate(progress.rays_per_second)}rays/s")
+    if progress.seconds_left is not None and not progress.done:
+        parts.append(f"{format_clock(progress.seconds_left)} left")
+    return ", ".join(parts)
+
+
+def format_rate(per_second: float) -> str:
+    """Two or more digits with a decimal prefix: `3.4 M`, `120 k`."""
+    for factor, prefix in ((1e9, "G"), (1e6, "M"), (1e3, "k")):
+        if per_second >= factor:
+            scaled = per_second / factor
+            return f"{scaled:.1f} {prefix}" if scaled < 100.0 else f"{scaled:.0f} {prefix}"
+    return f"{per_second:.0f} "
+
+
+def format_clock(seconds: float) -> str:
+    """`mm:ss`, or `h:mm:ss` from an hour on."""
+    whole = max(0, round(seconds))
+    hours, minutes = divmod(whole // 60, 60)
+    tail = f"{minutes:02d}:{whole % 60:02d}"
+    return f"{hours}:{tail}" if hours else tail

@@ -1,0 +1,120 @@
+"""Whether arrays and settings can be rendered at all, said before any renderer sees them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from .errors import SceneError
+from .passes import PASS_NAMES
+from .scene_arrays import (
+    CAMERA_KINDS,
+    LIGHT_KINDS,
+    WRAP_MODES,
+    Camera,
+    InstanceArrays,
+    MeshArrays,
+    RenderSettings,
+    SceneArrays,
+)
+
+
+def check_settings(settings: RenderSettings) -> None:
+    """Raises SceneError for a picture that cannot be."""
+    width, height = settings.width, settings.height
+    if width < 1 or height < 1:
+        raise SceneError(f"the picture's size is {width} x {height}: both sides must be 1 pixel or more")
+    if settings.border is not None:
+        x_min, y_min, x_max, y_max = settings.border
+        if not (0 <= x_min < x_max <= width and 0 <= y_min < y_max <= height):
+            raise SceneError(f"the border {settings.border} is empty or leaves the picture of {width} x {height}")
+    if settings.samples < 1:
+        raise SceneError(f"samples is {settings.samples}: it must be 1 or more")
+    if settings.max_bounces < 0:
+        raise SceneError(f"max_bounces is {settings.max_bounces}: it must be 0 or more")
+    unknown = sorted(set(settings.passes) - set(PASS_NAMES))
+    if unknown:
+        raise SceneError(f"unknown passes: {', '.join(unknown)}; there are {', '.join(PASS_NAMES)}")
+
+
+def check_scene(scene: SceneArrays) -> list[str]:
+    """Warnings about what will be left out. Raises SceneError, naming the origin, for what cannot be."""
+    check_camera(scene.camera)
+    for mesh in scene.meshes:
+        check_mesh(mesh)
+    for instance in scene.instances:
+        check_instance(scene, instance)
+    check_tables(scene)
+    return list(non_finite_warnings(scene.meshes))
+
+
+def check_camera(camera: Camera) -> None:
+    left, right, bottom, top = camera.window
+    if not 0 <= camera.kind < len(CAMERA_KINDS):
+        raise SceneError(f"the camera's kind is {camera.kind}: it must be an index into {CAMERA_KINDS}")
+    if not np.isfinite(np.asarray(camera.matrix, dtype=np.float64)).all():
+        raise SceneError("the camera's matrix is not finite")
+    if not np.isfinite(camera.window).all() or left == right or bottom == top:
+        raise SceneError(f"the camera sees nothing: its window is {camera.window}")
+
+
+def check_mesh(mesh: MeshArrays) -> None:
+    name = f"mesh {mesh.origin!r}"
+    count = len(mesh.triangles)
+    expected = {"vertices": (len(mesh.vertices), 3), "triangles": (count, 3), "normals": (count, 3, 3),
+                "uvs": (count, 3, 2), "slots": (count,)}
+    for field, shape in expected.items():
+        array = getattr(mesh, field)
+        if array is not None and array.shape != shape:
+            raise SceneError(f"{name}: {field} has the shape {array.shape}, expected {shape}")
+    if count and (mesh.triangles.min() < 0 or mesh.triangles.max() >= len(mesh.vertices)):
+        raise SceneError(f"{name}: a triangle names a vertex that is not there ({len(mesh.vertices)} vertices)")
+
+
+def check_instance(scene: SceneArrays, instance: InstanceArrays) -> None:
+    name = f"object {instance.origin!r}"
+    if not 0 <= instance.mesh < len(scene.meshes):
+        raise SceneError(f"{name}: mesh {instance.mesh} is not there ({len(scene.meshes)} meshes)")
+    slots = scene.meshes[instance.mesh].slots
+    used = 0 if slots is None or not len(slots) else int(slots.max())
+    lowest = 0 if slots is None or not len(slots) else int(slots.min())
+    if lowest < 0 or used >= len(instance.slot_materials):
+        raise SceneError(f"{name}: material slot {used} is not there ({len(instance.slot_materials)} slots)")
+    materials = instance.slot_materials
+    if materials.min() < 0 or materials.max() >= len(scene.materials):
+        raise SceneError(f"{name}: a slot names a material that is not there ({len(scene.materials)} materials)")
+    transforms = np.asarray(instance.transforms, dtype=np.float64)
+    if transforms.shape[1:] != (3, 4):
+        raise SceneError(f"{name}: transforms have the shape {transforms.shape}, expected (copies, 3, 4)")
+    if not np.isfinite(transforms).all() or (np.linalg.det(transforms[:, :, :3]) == 0.0).any():
+        raise SceneError(f"{name}: a transform is not finite or flattens space")
+
+
+def check_tables(scene: SceneArrays) -> None:
+    """Indices between materials, textures and images."""
+    for number, material in enumerate(scene.materials):
+        for field in ("base_texture", "roughness_texture", "metallic_texture", "emission_texture"):
+            if not -1 <= getattr(material, field) < len(scene.textures):
+                raise SceneError(f"material {number}: {field} {getattr(material, field)} is not there")
+    for number, texture in enumerate(scene.textures):
+        if not 0 <= texture.image < len(scene.images):
+            raise SceneError(f"texture {number}: image {texture.image} is not there")
+        if not 0 <= texture.wrap < len(WRAP_MODES):
+            raise SceneError(f"texture {number}: wrap {texture.wrap} is not an index into {WRAP_MODES}")
+    for image in scene.images:
+        if image.pixels.ndim != 3 or 0 in image.pixels.shape:
+            raise SceneError(f"image {image.origin!r}: its pixels have the shape {image.pixels.shape}")
+    for number, light in enumerate(scene.lights):
+        if not 0 <= light.kind < len(LIGHT_KINDS):
+            raise SceneError(f"light {number}: kind {light.kind} is not an index into {LIGHT_KINDS}")
+
+
+def non_finite_warnings(meshes: list[MeshArrays]) -> Iterator[str]:
+    """One for each mesh of which triangles will be dropped."""
+    for mesh in meshes:
+        finite = np.isfinite(mesh.vertices).all(axis=1)
+        if not finite.all():
+            dropped = int((~finite[mesh.triangles].all(axis=1)).sum())
+            yield (f"mesh {mesh.origin!r}: {int((~finite).sum())} vertices are not finite; "
+                   f"{dropped} triangles are left out")

@@ -1,0 +1,182 @@
+"""One render, from arrays to a picture with its error: `render` in one go, `start` step by step.
+
+Both devices stand behind the same class: the native core, and the reference on Embree.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from dataclasses import dataclass, replace
+from typing import Any, Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .devices import INTEGRATORS, NATIVE_ACCELERATORS, Unavailable, load_native, require_device
+from .errors import SceneError
+from .image_error import PictureError, estimate_error
+from .native_scene import build_native_scene
+from .passes import PassSource, film_shape, job_passes, read_combined, read_passes
+from .report import HistoryEntry, Progress, RenderFacts, build_report
+from .scene_arrays import Float32, Float64, RenderSettings, SceneArrays
+from .scene_check import check_scene, check_settings
+
+__all__ = ["RenderJob", "Result", "SceneError", "Unavailable", "render", "start"]
+
+POLL_SECONDS = 0.05
+FIRST_ERROR_SAMPLES = 8
+"""The error is measured when every replicate has a sample, then whenever the samples have doubled."""
+
+
+class Job(PassSource, Protocol):
+    """A running render of either device (docs/architecture.md, 3.3)."""
+
+    def poll(self, timeout_s: float, /) -> dict[str, Any]: ...
+    def cancel(self) -> None: ...
+    def replicates(self, sums: Float64, counts: NDArray[np.int64], /) -> None: ...
+    def error(self) -> dict[str, Any]: ...
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A finished render. Pictures have the bottom row first; with a border they have its size."""
+
+    pixels: Float32
+    """(h, w, 4) linear, associated alpha"""
+    passes: dict[str, Float32]
+    """depth (h, w), normal (h, w, 3): those asked for"""
+    report: dict[str, Any]
+    replicate_sums: Float64
+    """(8, h, w, 3) sums of radiance"""
+    replicate_counts: NDArray[np.int64]
+    """(8,) samples a pixel in each replicate"""
+
+
+@dataclass(frozen=True, slots=True)
+class StartedJob:
+    """A job and what is known about it from the start."""
+
+    job: Job
+    build: dict[str, Any]
+    kernel_set: str | None
+    instruction_set: str | None
+    threads: int
+
+
+def render(scene: SceneArrays, settings: RenderSettings) -> Result:
+    """Renders to the end. Raises what `start` raises."""
+    job = start(scene, settings)
+    while not job.poll(POLL_SECONDS).done:
+        pass
+    return job.result()
+
+
+def start(scene: SceneArrays, settings: RenderSettings) -> RenderJob:
+    """Checks and builds the scene and starts tracing.
+
+    Raises SceneError for a scene or picture that cannot be, Unavailable for a device, accelerator or
+    integrator that is not here.
+    """
+    check_settings(settings)
+    warnings = check_scene(scene)
+    require_device(settings.device)
+    if settings.integrator not in INTEGRATORS:
+        raise Unavailable(f"integrator {settings.integrator}: not built yet in this version")
+    asked = replace(settings, passes=job_passes(scene, settings))
+    started = start_native(scene, asked) if settings.device == "cpu" else start_reference(scene, asked)
+    return RenderJob(scene, settings, started, warnings)
+
+
+def start_native(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
+    """`settings.passes` are those of the job."""
+    if settings.accel not in NATIVE_ACCELERATORS:
+        raise Unavailable(f"accelerator {settings.accel}: not built yet in this version")
+    native = load_native()
+    try:
+        built, statistics = build_native_scene(native, scene, settings)
+        job = built.start_render(settings.width, settings.height, settings.samples, settings.seed % 2**32,
+                                 settings.max_bounces, settings.threads, settings.passes, settings.border)
+    except ValueError as refusal:
+        raise SceneError(str(refusal)) from refusal
+    info = native.info()
+    return StartedJob(job, statistics, info.get("kernel_set"), info.get("instruction_set"),
+                      settings.threads or os.cpu_count() or 1)
+
+
+def start_reference(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
+    """`settings.passes` are those of the job; accelerator and threads do not apply."""
+    from .reference_job import ReferenceJob
+    from .reference_path import build_world
+
+    begin = time.perf_counter()
+    world = build_world(scene)
+    baked = sum(len(one.transforms) * len(scene.meshes[one.mesh].triangles) for one in scene.instances)
+    statistics = {"seconds": time.perf_counter() - begin, "accel": "embree", "bytes": None,
+                  "degenerate_triangles": baked - len(world.traced.triangles.area)}
+    return StartedJob(ReferenceJob(world, settings), statistics, "numpy", None, 1)
+
+
+class RenderJob:
+    """A render under way: poll it, look at it, cancel it, and take its result."""
+
+    def __init__(self, scene: SceneArrays, settings: RenderSettings, started: StartedJob,
+                 warnings: list[str]) -> None:
+        self._scene = scene
+        self._settings = settings
+        self._started = started
+        self._warnings = warnings
+        self._error = PictureError()
+        self._history: list[HistoryEntry] = []
+        self._next_error = FIRST_ERROR_SAMPLES
+
+    def poll(self, timeout: float = POLL_SECONDS) -> Progress:
+        """State after at most `timeout` seconds, at once when done."""
+        state = self._started.job.poll(timeout)
+        if state["samples"] >= self._next_error or state["done"]:
+            self._measure(state)
+        return self._progress(state)
+
+    def cancel(self) -> None:
+        """Asks the job to stop; `poll` says done within 0.2 s."""
+        self._started.job.cancel()
+
+    def picture(self) -> Float32:
+        """(h, w, 4) as far as it has come."""
+        return read_combined(self._started.job, self._scene, film_shape(self._settings))
+
+    def passes(self) -> dict[str, Float32]:
+        """The passes asked for, as far as they have come."""
+        return read_passes(self._started.job, self._settings, film_shape(self._settings))
+
+    def result(self) -> Result:
+        """Waits for the end, then the pictures and the report."""
+        while not self.poll(POLL_SECONDS).done:
+            pass
+        shape = film_shape(self._settings)
+        sums, counts = np.zeros((8, *shape, 3)), np.zeros(8, dtype=np.int64)
+        self._started.job.replicates(sums, counts)
+        return Result(self.picture(), self.passes(), build_report(self._facts()), sums, counts)
+
+    def _measure(self, state: dict[str, Any]) -> None:
+        """Measures the error and notes it, once for each number of samples."""
+        if self._history and self._history[-1].samples == state["samples"]:
+            return
+        self._error = estimate_error(self._started.job.error())
+        self._history.append(HistoryEntry(state["samples"], state["seconds"], self._error))
+        while self._next_error <= state["samples"]:
+            self._next_error *= 2
+
+    def _progress(self, state: dict[str, Any]) -> Progress:
+        rays = state["rays_camera"] + state["rays_shadow"] + state["rays_bounce"]
+        seconds, samples = state["seconds"], state["samples"]
+        left = seconds * (state["target"] / samples - 1.0) if samples > 0 else None
+        rate = rays / seconds if seconds > 0.0 else 0.0
+        return Progress(state["done"], state["cancelled"], samples, state["target"], self._error.rmse, rate,
+                        seconds, left)
+
+    def _facts(self) -> RenderFacts:
+        started = self._started
+        return RenderFacts(self._scene, self._settings, started.job.poll(0.0), started.build, self._error,
+                           list(self._history), self._warnings, started.kernel_set, started.instruction_set,
+                           started.threads)
