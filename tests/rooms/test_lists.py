@@ -1,0 +1,61 @@
+"""Lists that must agree exist once, or are compared here."""
+
+from __future__ import annotations
+
+import re
+import tomllib
+
+import pytest
+
+import trg_blender
+from trg_blender.engine import scene_arrays
+from trg_blender.lang import scene
+
+from .tree import ROOT, read
+
+LEGS = ("3.11", "3.13")
+
+
+@pytest.mark.parametrize("table", ["MATERIAL_FIELDS", "LIGHT_FIELDS", "TEXTURE_FIELDS"])
+def test_the_columns_of_a_packed_table_are_the_same_in_both_languages(table: str):
+    trg_native = pytest.importorskip("trg_native", reason="the native core is not built here")
+    if not hasattr(trg_native, table):
+        pytest.fail(f"trg_native has no {table}")
+    assert tuple(getattr(trg_native, table)) == getattr(scene_arrays, table)
+
+
+@pytest.mark.parametrize("manifest", ["native/pyproject.toml", "blender_manifest.toml"])
+def test_the_version_is_the_packages(manifest: str):
+    written = tomllib.loads(read(manifest))
+    assert written.get("project", written)["version"] == trg_blender.__version__
+
+
+@pytest.mark.parametrize("leg", LEGS)
+def test_a_leg_pins_the_blender_module_that_the_project_declares(leg: str):
+    (pinned,) = re.findall(r"^bpy==(\S+)$", read(f"requirements/{leg}.txt"), re.MULTILINE)
+    render = tomllib.loads(read("pyproject.toml"))["project"]["optional-dependencies"]["render"]
+    assert f"bpy=={pinned}; python_version == '{leg}'" in render
+    assert f"{pinned} (Python {leg})" in read("docs/architecture.md")
+
+
+def test_every_declared_dependency_is_pinned_for_the_legs():
+    project = tomllib.loads(read("pyproject.toml"))["project"]
+    optional = project["optional-dependencies"]
+    wanted = {
+        re.split(r"[=<>;]", line)[0].lower() for line in [*project["dependencies"], *optional["render"]]
+    }
+    for leg in LEGS:
+        text = read(f"requirements/{leg}.txt") + read("requirements/common.txt")
+        pinned = {name.lower() for name in re.findall(r"^([\w-]+)==", text, re.MULTILINE)}
+        assert wanted <= pinned, f"Python {leg} lacks {wanted - pinned}"
+
+
+def test_the_records_and_their_description_name_the_same_kinds_of_shape():
+    described = re.findall(r"(\w+) \([\w, ]+\)", scene.ShapeRecord.__doc__ or "")
+    assert described == "sphere box plane tor conus cylinder fence triangle model".split()
+
+
+def test_the_readme_shows_the_first_example_as_it_is():
+    for page in ("README.md", "docs/language_tour.md"):
+        shown = re.findall(r"```c\n(.*?)```", read(page), re.DOTALL)
+        assert (ROOT / "examples" / "hello.trg").read_text(encoding="utf-8") in shown, page
