@@ -21,7 +21,7 @@ ROOT = Path(__file__).resolve().parent.parent
 ONE_LEG_ROOMS = ("rooms", "real_blender")
 # Rooms whose tests share nothing and may run side by side.
 PARALLEL_ROOMS = ("lang", "engine", "native")
-# No test of these may be skipped away as a whole outside CI either, for nothing outside the project is needed.
+# Rooms that may be skipped as a whole outside CI, because they need more than the project installs.
 OPTIONAL_ROOMS = ("real_blender",)
 
 

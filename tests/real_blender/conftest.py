@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+
 from .real_blender_tool import ROOT, RealBlender, installed_versions
 
 

@@ -13,7 +13,7 @@ FENCE = ROOT / "examples" / "fence.trg"
 GOOD_PROGRAM = """include("stl\\\\rt\\\\trg_raytrace.trg");
 Scene = scene();
 Scene.Add(plane(vec3(0, 1, 0), 0, material::silver()));
-Scene.Add(tor(vec3(0, 1, 0), 1, 0.4, material::green_plastic()));
+Scene.Add(tor(vec3(0, 1, 0), 0.4, 1.5, material::green_plastic()));
 Scene.Add(dir_light(vec3(-7, 5, 8), vec3(1, 1, 1)));
 i = 0;
 while (1)

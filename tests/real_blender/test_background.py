@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+
 from .real_blender_tool import ROOT, RealBlender
 from .rendered_files import FAULTY_PROGRAM, FENCE, GOOD_PROGRAM, combined, read_exr, write_program
 
