@@ -8,7 +8,8 @@
 
 namespace trg {
 
-/// Points origin + t direction with t_min < t < t_max. `direction` need not be unit.
+/// Points origin + t direction with t_min < t < t_max; a t_min below 0 counts as 0. `direction` need
+/// not be unit.
 struct Ray {
     Vec3 origin;
     float t_min;

@@ -1,0 +1,188 @@
+#include "accel/soup.h"
+
+#include <algorithm>
+#include <atomic>
+
+#include "base/parallel.h"
+
+namespace trg {
+
+namespace {
+
+constexpr int64_t kGrain = 1 << 13;
+
+TriangleCorners corners_of(const Mesh& mesh, int64_t triangle) {
+    const Triangle& t = mesh.triangles[triangle];
+    return {{mesh.vertices[t.vertex[0]], mesh.vertices[t.vertex[1]], mesh.vertices[t.vertex[2]]}};
+}
+
+/// Triangles by item number, whether they come from one mesh or from many.
+struct Source {
+    const World* world;                 // of a merged soup
+    const std::vector<PrimOrigin>* origins;
+    const Mesh* mesh;                   // of one mesh
+    int64_t count;
+};
+
+TriangleCorners corners_of(const Source& source, int64_t item) {
+    if (source.mesh) return corners_of(*source.mesh, item);
+    const PrimOrigin& origin = (*source.origins)[item];
+    const Instance& instance = source.world->instances[origin.instance];
+    return corners_of(source.world->meshes[instance.mesh], origin.triangle);
+}
+
+PrimRef ref_of(const TriangleCorners& triangle, int64_t item) {
+    Bounds box = empty_bounds();
+    for (const Vec3& p : triangle.p) box = united(box, p);
+    return {box, static_cast<int32_t>(item), 0};
+}
+
+/// References to the sound triangles, in order.
+std::vector<PrimRef> gather_refs(const Source& source, int threads) {
+    std::vector<PrimRef> refs(source.count);
+    std::atomic<int64_t> unsound{0};
+    parallel_for(source.count, kGrain, threads, [&](int64_t begin, int64_t end) {
+        for (int64_t item = begin; item < end; ++item) {
+            const TriangleCorners triangle = corners_of(source, item);
+            const bool sound = is_sound(triangle);
+            refs[item] = ref_of(triangle, sound ? item : -1);
+            if (!sound) ++unsound;
+        }
+    });
+    if (unsound > 0)
+        refs.erase(std::remove_if(refs.begin(), refs.end(),
+                                  [](const PrimRef& ref) { return ref.item < 0; }),
+                   refs.end());
+    return refs;
+}
+
+/// Packs runs of references, run k into block k; `run(k)` gives {pointer to item numbers, count}.
+template <class Block, class Put>
+void pack_blocks(AlignedVector<Block>& blocks, const Block& empty, int threads, Put put) {
+    const auto count = static_cast<int64_t>(blocks.size());
+    parallel_for(count, kGrain / kWidth, threads, [&](int64_t begin, int64_t end) {
+        for (int64_t k = begin; k < end; ++k) {
+            blocks[k] = empty;
+            put(blocks[k], k);
+        }
+    });
+}
+
+/// Runs of at most kWidth items each, one a block.
+struct BlockItems {
+    std::vector<int32_t> items;
+    std::vector<int64_t> begin;   // one more than there are blocks
+};
+
+void pack_soup(Soup& soup, const Source& source, const BlockItems& runs,
+               const SoupSettings& settings) {
+    const auto put = [&](auto& block, int64_t k) {
+        for (int64_t at = runs.begin[k]; at < runs.begin[k + 1]; ++at) {
+            const int32_t item = runs.items[at];
+            put_triangle(block, static_cast<int>(at - runs.begin[k]), corners_of(source, item), item);
+        }
+    };
+    const size_t count = runs.begin.size() - 1;
+    if (settings.triangle_test == TriangleTest::classic) {
+        soup.plane_blocks.resize(count);
+        pack_blocks(soup.plane_blocks, empty_plane_block(), settings.threads, put);
+    } else {
+        soup.corner_blocks.resize(count);
+        pack_blocks(soup.corner_blocks, empty_corner_block(), settings.threads, put);
+    }
+}
+
+BlockItems runs_of_tree(const Tree& tree, const std::vector<PrimRef>& refs) {
+    BlockItems runs;
+    runs.items.reserve(refs.size());
+    runs.begin.assign(1, 0);
+    for (const LeafRange& leaf : tree.leaves) {
+        for (int32_t k = 0; k < leaf.count; ++k)
+            runs.items.push_back(refs[leaf.begin + k].item);
+        // Ascending items make the first of equal hits the one that counts.
+        std::sort(runs.items.end() - leaf.count, runs.items.end());
+        runs.begin.push_back(static_cast<int64_t>(runs.items.size()));
+    }
+    return runs;
+}
+
+void cut_into_runs(BlockItems& runs, int64_t first, int64_t last) {
+    for (int64_t at = first; at < last; at += kWidth)
+        runs.begin.push_back(std::min<int64_t>(at + kWidth, last));
+}
+
+BlockItems runs_of_grid(Grid& grid, const std::vector<PrimRef>& refs) {
+    CellLists lists = list_cells(grid, refs);
+    BlockItems runs;
+    runs.begin.assign(1, 0);
+    grid.cell_begin.assign(1, 0);
+    for (size_t cell = 0; cell + 1 < lists.begin.size(); ++cell) {
+        cut_into_runs(runs, lists.begin[cell], lists.begin[cell + 1]);
+        grid.cell_begin.push_back(static_cast<uint32_t>(runs.begin.size() - 1));
+    }
+    runs.items = std::move(lists.items);
+    for (int32_t& item : runs.items) item = refs[item].item;
+    return runs;
+}
+
+BlockItems runs_of_all(const std::vector<PrimRef>& refs) {
+    BlockItems runs;
+    for (const PrimRef& ref : refs) runs.items.push_back(ref.item);
+    runs.begin.assign(1, 0);
+    cut_into_runs(runs, 0, static_cast<int64_t>(refs.size()));
+    return runs;
+}
+
+void index_soup(Soup& soup, const Source& source, const SoupSettings& settings) {
+    std::vector<PrimRef> refs = gather_refs(source, settings.threads);
+    soup.accel = settings.accel;
+    soup.triangles = static_cast<int64_t>(refs.size());
+    soup.degenerate = source.count - soup.triangles;
+    for (const PrimRef& ref : refs) soup.bounds = united(soup.bounds, ref.box);
+    BlockItems runs;
+    if (refs.empty() || settings.accel == AccelKind::none) {
+        soup.accel = AccelKind::none;
+        runs = runs_of_all(refs);
+    } else if (settings.accel == AccelKind::grid) {
+        soup.grid = lay_grid(soup.bounds, soup.triangles);
+        runs = runs_of_grid(soup.grid, refs);
+    } else {
+        soup.tree = build_tree(refs, {kWidth, settings.threads});
+        runs = runs_of_tree(soup.tree, refs);
+        soup.tree.leaves = {};
+    }
+    refs = {};
+    pack_soup(soup, source, runs, settings);
+}
+
+}  // namespace
+
+Soup build_mesh_soup(const Mesh& mesh, const SoupSettings& settings) {
+    Soup soup;
+    const auto count = static_cast<int64_t>(mesh.triangles.size());
+    index_soup(soup, {nullptr, nullptr, &mesh, count}, settings);
+    return soup;
+}
+
+Soup build_merged_soup(const World& world, const std::vector<int32_t>& instances,
+                       const SoupSettings& settings) {
+    Soup soup;
+    for (int32_t instance : instances) {
+        const Mesh& mesh = world.meshes[world.instances[instance].mesh];
+        for (size_t k = 0; k < mesh.triangles.size(); ++k)
+            soup.origins.push_back({instance, static_cast<int32_t>(k)});
+    }
+    const auto count = static_cast<int64_t>(soup.origins.size());
+    index_soup(soup, {&world, &soup.origins, nullptr, count}, settings);
+    return soup;
+}
+
+int64_t soup_bytes(const Soup& soup) {
+    return static_cast<int64_t>(soup.tree.nodes.size() * sizeof(WideNode) +
+                                soup.corner_blocks.size() * sizeof(CornerBlock) +
+                                soup.plane_blocks.size() * sizeof(PlaneBlock) +
+                                soup.origins.size() * sizeof(PrimOrigin) +
+                                soup.grid.cell_begin.size() * sizeof(uint32_t));
+}
+
+}  // namespace trg

@@ -1,0 +1,41 @@
+/// Dividing a range of boxes in two by the surface area heuristic over bins (Wald 2007).
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "geom/bounds.h"
+
+namespace trg {
+
+/// The box of one item of a tree, and which item it is.
+struct PrimRef {
+    Bounds box;
+    int32_t item;
+    int32_t unused;
+};
+
+/// A run of references with the box of them all and the box of their (doubled) centres.
+struct PrimRange {
+    int64_t begin, end;
+    Bounds box;
+    Bounds centres;
+};
+
+struct SplitSettings {
+    int block_width;   // items are paid for in blocks of this many
+    int threads;
+};
+
+/// Range of refs[begin..end), its boxes measured.
+PrimRange measure_range(const PrimRef* refs, int64_t begin, int64_t end);
+
+/// Reorders the references of `range` and returns its two halves, neither of them empty. Falls back
+/// to halves by count where centres coincide. Does not depend on the number of threads.
+void split_range(PrimRef* refs, const PrimRange& range, const SplitSettings& settings,
+                 PrimRange halves[2]);
+
+/// Halves by count, for ranges too deep in the tree for the heuristic.
+void split_by_count(const PrimRef* refs, const PrimRange& range, PrimRange halves[2]);
+
+}  // namespace trg

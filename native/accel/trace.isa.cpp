@@ -1,0 +1,160 @@
+/// Tracing of batches of rays; compiled once per instruction set.
+#include "accel/kernels.h"
+#include "accel/test_classic.h"
+#include "accel/test_watertight.h"
+#include "accel/walk_grid.h"
+#include "accel/walk_tree.h"
+
+namespace trg::TRG_ISA {
+
+namespace {
+
+TRG_FN const CornerBlock* blocks_of(const Soup& soup, const CornerBlock*) {
+    return soup.corner_blocks.data();
+}
+TRG_FN const PlaneBlock* blocks_of(const Soup& soup, const PlaneBlock*) {
+    return soup.plane_blocks.data();
+}
+
+/// Calls `visit(block index)` for all blocks of `soup` that the ray may meet before `*limit`.
+template <bool kSorted, class Block, class Visit>
+TRG_FN bool walk_soup(const Soup& soup, const TracedRay& ray, const float* limit, Visit visit) {
+    if (soup.accel == AccelKind::bvh) return walk_tree<kSorted>(soup.tree, ray, limit, visit);
+    if (soup.accel == AccelKind::grid) return walk_grid(soup.grid, ray, limit, visit);
+    const size_t count = soup.corner_blocks.size() + soup.plane_blocks.size();
+    for (size_t k = 0; k < count; ++k)
+        if (visit(static_cast<uint32_t>(k))) return true;
+    return false;
+}
+
+template <class Block>
+TRG_FN void search_soup(const Soup& soup, const TracedRay& ray, Search& search) {
+    const Block* blocks = blocks_of(soup, static_cast<const Block*>(nullptr));
+    walk_soup<true, Block>(soup, ray, &search.limit, [&](uint32_t k) {
+        test_closest(blocks[k], ray, search);
+        return false;
+    });
+}
+
+template <class Block>
+TRG_FN bool soup_hides(const Soup& soup, const TracedRay& ray, float t_max) {
+    const Block* blocks = blocks_of(soup, static_cast<const Block*>(nullptr));
+    const float limit = t_max * kFarFactor;
+    return walk_soup<false, Block>(soup, ray, &limit,
+                                   [&](uint32_t k) { return test_any(blocks[k], ray, t_max); });
+}
+
+/// `v` times the linear part of the placement's inverse map.
+TRG_FN Vec3 into_placement(const Placement& placement, Vec3d v) {
+    const auto& m = placement.inverse;
+    return to_float({m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
+                     m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+                     m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z});
+}
+
+/// The ray in the space of a placed soup; distances stay what they are.
+TRG_FN TracedRay enter_placement(const Placement& placement, const TracedRay& ray) {
+    if (placement.identity) return ray;
+    const auto& t = placement.translation;
+    return prepare_ray(into_placement(placement, ray.origin_d - Vec3d{t[0], t[1], t[2]}),
+                       into_placement(placement, ray.direction_d), ray.t_min);
+}
+
+template <class Block>
+TRG_FN void search_placement(const Placement& placement, const TracedRay& ray, Search& search) {
+    search.current = &placement;
+    if (placement.identity) search_soup<Block>(*placement.soup, ray, search);
+    else search_soup<Block>(*placement.soup, enter_placement(placement, ray), search);
+}
+
+template <class Block>
+TRG_FN void search_world(const WorldIndex& index, const TracedRay& ray, Search& search) {
+    const Placement* placements = index.placements.data();
+    if (index.placements.size() == 1) return search_placement<Block>(*placements, ray, search);
+    walk_tree<true>(index.top, ray, &search.limit, [&](uint32_t k) {
+        search_placement<Block>(placements[k], ray, search);
+        return false;
+    });
+}
+
+template <class Block>
+TRG_FN bool world_hides(const WorldIndex& index, const TracedRay& ray, float t_max) {
+    const auto visit = [&](uint32_t k) {
+        const Placement& placement = index.placements[k];
+        if (placement.identity) return soup_hides<Block>(*placement.soup, ray, t_max);
+        return soup_hides<Block>(*placement.soup, enter_placement(placement, ray), t_max);
+    };
+    if (index.placements.size() == 1) return visit(0);
+    const float limit = t_max * kFarFactor;
+    return walk_tree<false>(index.top, ray, &limit, visit);
+}
+
+/// `ray` with a direction of ordinary length, and the power of two by which its distances grew.
+struct ScaledRay {
+    Ray ray;
+    float scale;
+};
+
+TRG_FN ScaledRay scale_ray(Ray ray) {
+    if (!(ray.t_min > 0)) ray.t_min = 0;   // also -0, whose bits do not sort
+    const Vec3 d = ray.direction;
+    const float largest = std::fmax(std::fmax(std::fabs(d.x), std::fabs(d.y)), std::fabs(d.z));
+    if (largest > 1e-12f && largest < 1e12f) return {ray, 1.0f};
+    const int exponent = std::ilogb(largest);
+    // Two steps each way, because 2^exponent itself may be out of range.
+    const float scale = std::ldexp(1.0f, exponent < -126 ? -126 : exponent > 126 ? 126 : exponent);
+    ray.direction = {d.x / scale, d.y / scale, d.z / scale};
+    ray.t_min *= scale;
+    ray.t_max *= scale;
+    return {ray, scale};
+}
+
+template <class Block>
+TRG_FN Hit resolve_hit(const Search& search, const TracedRay& ray, float scale) {
+    if (search.prim < 0) return no_hit();
+    const Placement& placement = *search.placement;
+    const Block& block = *static_cast<const Block*>(search.block);
+    const Barycentrics at = coordinates_of(block, search.lane, enter_placement(placement, ray));
+    const PrimOrigin origin = origin_of(placement, search.prim);
+    const float t = search.t / scale;
+    if (!(t < HUGE_VALF)) return no_hit();
+    return {t, at.u, at.v, origin.triangle, origin.instance};
+}
+
+template <class Block>
+TRG_FN Hit closest_hit(const WorldIndex& index, const Ray& ray) {
+    if (!is_traceable(ray) || index.placements.empty()) return no_hit();
+    const ScaledRay scaled = scale_ray(ray);
+    const TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
+    Search search = start_search(scaled.ray.t_max);
+    search_world<Block>(index, traced, search);
+    return resolve_hit<Block>(search, traced, scaled.scale);
+}
+
+template <class Block>
+TRG_FN bool is_hidden(const WorldIndex& index, const Ray& ray) {
+    if (!is_traceable(ray) || index.placements.empty()) return false;
+    const ScaledRay scaled = scale_ray(ray);
+    const TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
+    return world_hides<Block>(index, traced, scaled.ray.t_max);
+}
+
+void trace_closest(const WorldIndex& index, const Ray* rays, Hit* hits, int count) {
+    const bool classic = index.triangle_test == TriangleTest::classic;
+    for (int k = 0; k < count; ++k)
+        hits[k] = classic ? closest_hit<PlaneBlock>(index, rays[k])
+                          : closest_hit<CornerBlock>(index, rays[k]);
+}
+
+void trace_any(const WorldIndex& index, const Ray* rays, uint8_t* hidden, int count) {
+    const bool classic = index.triangle_test == TriangleTest::classic;
+    for (int k = 0; k < count; ++k)
+        hidden[k] = classic ? is_hidden<PlaneBlock>(index, rays[k])
+                            : is_hidden<CornerBlock>(index, rays[k]);
+}
+
+}  // namespace
+
+Kernels trace_kernels() { return {trace_closest, trace_any}; }
+
+}  // namespace trg::TRG_ISA

@@ -1,0 +1,208 @@
+#include <chrono>
+#include <cmath>
+
+#include "accel/world.h"
+#include "accel/world_index.h"
+#include "base/isa.h"
+#include "base/parallel.h"
+
+namespace trg {
+
+namespace {
+
+/// Below this many triangles trying each of them is as quick as any index.
+constexpr int64_t kTinyWorld = 16;
+
+Kernels choose_kernels() {
+#if defined(TRG_HAS_X86_VARIANTS)
+    switch (detect_isa()) {
+        case Isa::avx512: return avx512::trace_kernels();
+        case Isa::avx2: return avx2::trace_kernels();
+        default: break;
+    }
+#endif
+    return baseline::trace_kernels();
+}
+
+int64_t count_instanced_triangles(const World& world) {
+    int64_t count = 0;
+    for (const Instance& instance : world.instances)
+        count += static_cast<int64_t>(world.meshes[instance.mesh].triangles.size());
+    return count;
+}
+
+/// The kind of index for `world`, with the reason where it was left open.
+AccelKind choose_accel(const World& world, std::string* reason) {
+    if (world.accel != AccelKind::automatic) {
+        *reason = "asked for";
+        return world.accel;
+    }
+    const int64_t triangles = count_instanced_triangles(world);
+    if (triangles <= kTinyWorld) {
+        *reason = std::to_string(triangles) + " triangles: trying each is quickest";
+        return AccelKind::none;
+    }
+    *reason = std::to_string(triangles) + " triangles: the tree is quickest above " +
+              std::to_string(kTinyWorld);
+    return AccelKind::bvh;
+}
+
+Placement place_soup(const Soup& soup, int32_t number, const Instance& instance) {
+    Placement placement{&soup, number, instance.identity, {}, {}};
+    const auto& m = instance.object_to_world.m;
+    const Vec3d r0{m[0][0], m[0][1], m[0][2]}, r1{m[1][0], m[1][1], m[1][2]};
+    const Vec3d r2{m[2][0], m[2][1], m[2][2]};
+    const double scale = 1.0 / dot(r0, cross(r1, r2));
+    const Vec3d c[3] = {cross(r1, r2) * scale, cross(r2, r0) * scale, cross(r0, r1) * scale};
+    for (int k = 0; k < 3; ++k) {
+        placement.inverse[0][k] = c[k].x;
+        placement.inverse[1][k] = c[k].y;
+        placement.inverse[2][k] = c[k].z;
+        placement.translation[k] = m[k][3];
+    }
+    return placement;
+}
+
+float rounded_down(double x) {
+    const auto nearest = static_cast<float>(x);
+    return nearest > x ? std::nextafter(nearest, -HUGE_VALF) : nearest;
+}
+
+float rounded_up(double x) {
+    const auto nearest = static_cast<float>(x);
+    return nearest < x ? std::nextafter(nearest, HUGE_VALF) : nearest;
+}
+
+/// The box in the world of a soup placed by `instance`, widened by what rounding a ray into the
+/// soup's space can move it.
+Bounds placed_bounds(const Bounds& box, const Instance& instance) {
+    if (instance.identity || is_empty(box)) return box;
+    const double lo[3] = {box.lo.x, box.lo.y, box.lo.z}, hi[3] = {box.hi.x, box.hi.y, box.hi.z};
+    double low[3], high[3];
+    for (int row = 0; row < 3; ++row) {
+        const float* m = instance.object_to_world.m[row];
+        double size = std::fabs(static_cast<double>(m[3]));
+        low[row] = high[row] = m[3];
+        for (int k = 0; k < 3; ++k) {
+            const double a = m[k] * lo[k], b = m[k] * hi[k];
+            low[row] += a < b ? a : b;
+            high[row] += a < b ? b : a;
+            size += std::fabs(a) > std::fabs(b) ? std::fabs(a) : std::fabs(b);
+        }
+        low[row] -= size * 0x1p-21;
+        high[row] += size * 0x1p-21;
+    }
+    return {{rounded_down(low[0]), rounded_down(low[1]), rounded_down(low[2])},
+            {rounded_up(high[0]), rounded_up(high[1]), rounded_up(high[2])}};
+}
+
+/// Instances whose mesh nobody else uses and that stand where the mesh is, and all the others.
+struct Shares {
+    std::vector<int32_t> merged, placed;
+};
+
+Shares share_instances(const World& world) {
+    std::vector<int32_t> uses(world.meshes.size(), 0);
+    for (const Instance& instance : world.instances) ++uses[instance.mesh];
+    Shares shares;
+    for (size_t k = 0; k < world.instances.size(); ++k) {
+        const Instance& instance = world.instances[k];
+        const bool merge = instance.identity && uses[instance.mesh] == 1;
+        (merge ? shares.merged : shares.placed).push_back(static_cast<int32_t>(k));
+    }
+    return shares;
+}
+
+struct Assembly {
+    const World& world;
+    WorldIndex& index;
+    const SoupSettings settings;
+    std::vector<Placement> placements;
+    std::vector<Bounds> boxes;
+};
+
+void add_merged(Assembly& assembly, const std::vector<int32_t>& instances) {
+    if (instances.empty()) return;
+    auto soup = std::make_unique<Soup>();
+    int32_t number = -1;
+    if (instances.size() == 1) {
+        number = instances[0];
+        const Instance& only = assembly.world.instances[number];
+        *soup = build_mesh_soup(assembly.world.meshes[only.mesh], assembly.settings);
+    } else {
+        *soup = build_merged_soup(assembly.world, instances, assembly.settings);
+    }
+    assembly.placements.push_back({soup.get(), number, true, {}, {}});
+    assembly.boxes.push_back(soup->bounds);
+    assembly.index.soups.push_back(std::move(soup));
+}
+
+void add_placed(Assembly& assembly, const std::vector<int32_t>& instances) {
+    std::vector<const Soup*> soup_of(assembly.world.meshes.size(), nullptr);
+    for (int32_t number : instances) {
+        const Instance& instance = assembly.world.instances[number];
+        if (!soup_of[instance.mesh]) {
+            auto soup = std::make_unique<Soup>(
+                build_mesh_soup(assembly.world.meshes[instance.mesh], assembly.settings));
+            soup_of[instance.mesh] = soup.get();
+            assembly.index.soups.push_back(std::move(soup));
+        }
+        const Soup& soup = *soup_of[instance.mesh];
+        if (soup.triangles == 0) continue;
+        assembly.placements.push_back(place_soup(soup, number, instance));
+        assembly.boxes.push_back(placed_bounds(soup.bounds, instance));
+    }
+}
+
+void build_top(Assembly& assembly) {
+    WorldIndex& index = assembly.index;
+    if (assembly.placements.size() < 2) {
+        index.placements = std::move(assembly.placements);
+        return;
+    }
+    std::vector<PrimRef> refs;
+    for (size_t k = 0; k < assembly.boxes.size(); ++k)
+        refs.push_back({assembly.boxes[k], static_cast<int32_t>(k), 0});
+    index.top = build_tree(refs, {1, assembly.settings.threads});
+    for (const LeafRange& leaf : index.top.leaves)
+        index.placements.push_back(assembly.placements[refs[leaf.begin].item]);
+    index.top.leaves = {};
+}
+
+void count_up(const WorldIndex& index, BuildStats* stats) {
+    for (const auto& soup : index.soups) {
+        stats->nodes += static_cast<int64_t>(soup->tree.nodes.size());
+        stats->triangles += soup->triangles;
+        stats->degenerate_triangles += soup->degenerate;
+        stats->bytes += soup_bytes(*soup);
+    }
+    stats->nodes += static_cast<int64_t>(index.top.nodes.size());
+    stats->bytes += static_cast<int64_t>(index.top.nodes.size() * sizeof(WideNode) +
+                                         index.placements.size() * sizeof(Placement));
+}
+
+}  // namespace
+
+BuildStats build_world(World& world, int threads) {
+    const auto start = std::chrono::steady_clock::now();
+    BuildStats stats;
+    stats.accel = choose_accel(world, &stats.reason);
+    stats.instances = static_cast<int64_t>(world.instances.size());
+    auto index = std::make_shared<WorldIndex>();
+    index->triangle_test = world.triangle_test;
+    index->kernels = choose_kernels();
+
+    Assembly assembly{world, *index, {stats.accel, world.triangle_test, threads}, {}, {}};
+    const Shares shares = share_instances(world);
+    add_merged(assembly, shares.merged);
+    add_placed(assembly, shares.placed);
+    build_top(assembly);
+
+    count_up(*index, &stats);
+    world.index = std::move(index);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    stats.seconds = elapsed.count();
+    return stats;
+}
+
+}  // namespace trg
