@@ -1,5 +1,5 @@
-/* The paper's scene with what its authors meant: the cones ring the fence, the chess texture lies on a
-   stage, and the project's own elephant stands where the cow stood. One Render() is one frame of an
+/* The paper's scene with what its authors meant: the cones stand at the fence's corners, the chess texture lies
+   on a stage, and the project's own elephant stands where the cow stood. One Render() is one frame of an
    endless camera ride. (paper.trg is the program as printed.) */
 include("stl\\rt\\trg_raytrace.trg");
 
@@ -9,11 +9,12 @@ BuildFence = function( s = 15 ~ "num", gr = 6 ~ "num", a = #vec3(0) ~ "vec3" )
 {
     #Scene.Add(#fence(a + #vec3(0, 1, 0), s, 2, gr, #material::blue_plastic()));
     i = 0;
-    an = #mth::Degree2Radian(90);
     P1 = #mth::Degree2Radian(360) / gr;
+    an = #mth::Degree2Radian(90) + P1 / 2;
+    corner = s / #mth::cos(P1 / 2);
     while (i < gr)
     {
-        post = a + #vec3(#mth::cos(an) * s, 0, #mth::sin(an) * s);
+        post = a + #vec3(#mth::cos(an), 0, #mth::sin(an)) * corner;
         #Scene.Add(#conus(post, 1, 3, material::red_plastic()));
         an += P1;
         i++;

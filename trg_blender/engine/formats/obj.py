@@ -11,6 +11,7 @@ from __future__ import annotations
 from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -18,11 +19,12 @@ import numpy as np
 from .errors import FormatError
 from .model import Model, ModelMaterial, Primitive, mean_face_normals, repair_normals
 
+INT32_MAX = 2**31 - 1
 FLOAT32_MAX = float(np.finfo(np.float32).max)
 KIND_NAMES = ("v", "vt", "vn")
 ABSENT = -1
 FACE_NORMAL = -2
-"""and below: FACE_NORMAL minus the face's place, as the normal of corners without vn"""
+"""and below: FACE_NORMAL minus the face's number, as the normal of corners without vn"""
 
 
 @dataclass(slots=True)
@@ -33,10 +35,11 @@ class _ObjText:
     colors: array[float] = field(default_factory=lambda: array("d"))
     uvs: array[float] = field(default_factory=lambda: array("d"))
     normals: array[float] = field(default_factory=lambda: array("d"))
-    corners: array[int] = field(default_factory=lambda: array("q"))
+    corners: array[int] = field(default_factory=lambda: array("i"))
     """three a corner: v, vt, vn, 0-based or ABSENT; three corners a triangle"""
-    triangle_offsets: array[int] = field(default_factory=lambda: array("q"))
-    """where the face of each triangle stands in the file"""
+    face_offsets: array[int] = field(default_factory=lambda: array("q"))
+    """where each face stands in the file"""
+    triangle_faces: array[int] = field(default_factory=lambda: array("i"))
     triangle_materials: array[int] = field(default_factory=lambda: array("i"))
     materials: dict[str, int] = field(default_factory=dict)
     material: int = -1
@@ -72,12 +75,12 @@ def parse_obj(data: bytes, file: str) -> Model:
     text = _ObjText()
     for line in _split_lines(data, file):
         _read_statement(text, line)
-    if not text.triangle_offsets:
+    if not text.triangle_faces:
         raise FormatError(file, len(data), "at least one face (f)")
-    corners = np.frombuffer(text.corners, dtype=np.int64).reshape(-1, 3, 3).copy()
+    corners = np.frombuffer(text.corners, dtype=np.int32).reshape(-1, 3, 3).copy()
     _check_references(text, corners, file)
-    offsets = np.frombuffer(text.triangle_offsets, dtype=np.int64)
-    corners[:, :, 2] = np.where(corners[:, :, 2] == ABSENT, FACE_NORMAL - offsets[:, None], corners[:, :, 2])
+    faces = np.frombuffer(text.triangle_faces, dtype=np.int32)
+    corners[:, :, 2] = np.where(corners[:, :, 2] == ABSENT, FACE_NORMAL - faces[:, None], corners[:, :, 2])
     owners = np.frombuffer(text.triangle_materials, dtype=np.int32)
     groups = list(dict.fromkeys(owners.tolist()))
     built = [_build_primitive(text, corners[owners == owner], owner) for owner in groups]
@@ -158,10 +161,11 @@ def _read_face(text: _ObjText, line: _Line) -> None:
     corners = [_read_corner(text, line, word) for word in line.words[1:]]
     if len(corners) < 3:
         raise line.fail(f"a face of at least 3 corners, found {len(corners)}")
-    for second, third in zip(corners[1:], corners[2:], strict=False):
+    for second, third in pairwise(corners[1:]):
         text.corners.extend((*corners[0], *second, *third))
-        text.triangle_offsets.append(line.offset)
+        text.triangle_faces.append(len(text.face_offsets))
         text.triangle_materials.append(text.material)
+    text.face_offsets.append(line.offset)
 
 
 def _read_corner(text: _ObjText, line: _Line, word: bytes) -> tuple[int, int, int]:
@@ -182,7 +186,7 @@ def _read_reference(text: _ObjText, line: _Line, kind: int, part: bytes) -> int:
     except ValueError:
         raise line.fail("whole numbers in a face") from None
     index = number - 1 if number > 0 else text.count(kind) + number
-    if number == 0 or index < 0 or number >= 2**62:
+    if number == 0 or index < 0 or number > INT32_MAX:
         raise line.fail(f"a {KIND_NAMES[kind]} that is there, found number {number}")
     return index
 
@@ -194,7 +198,7 @@ def _check_references(text: _ObjText, corners: np.ndarray, file: str) -> None:
         if beyond.size:
             number = int(corners[beyond[0], :, kind].max()) + 1
             expected = f"a face whose {name} is there: number {number} of {text.count(kind)}"
-            raise FormatError(file, text.triangle_offsets[int(beyond[0])], expected)
+            raise FormatError(file, text.face_offsets[text.triangle_faces[int(beyond[0])]], expected)
 
 
 def _build_primitive(text: _ObjText, corners: np.ndarray, material: int) -> tuple[Primitive, int]:
