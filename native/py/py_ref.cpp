@@ -8,6 +8,8 @@ void set_error_from_exception() noexcept {
     } catch (const PythonError&) {
     } catch (const ArgumentError& error) {
         PyErr_SetString(PyExc_ValueError, error.what());
+    } catch (const std::invalid_argument& error) {
+        PyErr_SetString(PyExc_ValueError, error.what());
     } catch (const std::bad_alloc&) {
         PyErr_NoMemory();
     } catch (const std::exception& error) {

@@ -1,7 +1,176 @@
+/// Methods of trg_native.Scene that take shading tables and start renders.
+#include "py/buffer.h"
+#include "py/job_object.h"
 #include "py/scene_object.h"
 
 namespace trg::py {
 
-PyMethodDef kSceneRenderMethods[] = {{nullptr, nullptr, 0, nullptr}};
+namespace {
+
+constexpr int64_t kLargestSide = 1 << 20;
+
+/// The packed table in `object`; `hold` keeps its memory.
+Table take_table(PyObject* object, const char* name, Buffer* hold) {
+    *hold = Buffer::of<float>(object, name, {kAnyExtent, kAnyExtent});
+    return {hold->data<float>(), hold->extent(0), hold->extent(1)};
+}
+
+/// Methods that replace one table.
+template <void (*kSet)(ShadingTables&, const Table&)>
+PyObject* set_table_method(PyObject* self, PyObject* table) {
+    return guarded_object([&] {
+        Buffer hold;
+        kSet(scene_to_change(self).tables, take_table(table, "table", &hold));
+        return none();
+    });
+}
+
+template <class Item>
+void copy_pixels(PyObject* object, Image* image, std::vector<Item>* pixels) {
+    const Buffer buffer = Buffer::of<Item>(object, "pixels", {kAnyExtent, kAnyExtent, kAnyExtent});
+    for (int k = 0; k < 2; ++k)
+        if (buffer.extent(k) < 1 || buffer.extent(k) > kLargestSide)
+            throw ArgumentError("pixels: expected sides from 1 to " + std::to_string(kLargestSide));
+    const int64_t channels = buffer.extent(2);
+    if (channels != 1 && channels != 3 && channels != 4)
+        throw ArgumentError("pixels: expected 1, 3 or 4 channels, got " + std::to_string(channels));
+    image->height = static_cast<int32_t>(buffer.extent(0));
+    image->width = static_cast<int32_t>(buffer.extent(1));
+    image->channels = static_cast<int32_t>(channels);
+    pixels->assign(buffer.data<Item>(), buffer.data<Item>() + buffer.count());
+}
+
+PyObject* add_image_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        PyObject* pixels;
+        int srgb = 1;
+        const char* const names[] = {"pixels", "srgb", nullptr};
+        parse_arguments(args, kwargs, "O|p", names, &pixels, &srgb);
+        Scene& scene = scene_to_change(self);
+        Image image{};
+        image.srgb = srgb != 0;
+        if (has_item_type(pixels, 'u', 1))
+            copy_pixels(pixels, &image, &image.bytes);
+        else
+            copy_pixels(pixels, &image, &image.floats);
+        return checked(PyLong_FromLong(add_image(scene.tables, std::move(image))));
+    });
+}
+
+PyObject* set_world_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        float r, g, b;
+        const char* const names[] = {"r", "g", "b", nullptr};
+        parse_arguments(args, kwargs, "fff", names, &r, &g, &b);
+        set_background(scene_to_change(self).tables, r, g, b);
+        return none();
+    });
+}
+
+PyObject* set_camera_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        CameraRequest request{};
+        PyObject *matrix, *window;
+        request.clip_start = 1e-6;
+        request.clip_end = 1e30;
+        const char* const names[] = {"kind", "matrix", "window", "clip_start", "clip_end", nullptr};
+        parse_arguments(args, kwargs, "iOO|dd", names, &request.kind, &matrix, &window,
+                        &request.clip_start, &request.clip_end);
+        const Buffer rows = Buffer::of<double>(matrix, "matrix", {3, 4});
+        const Buffer sides = Buffer::of<double>(window, "window", {4});
+        request.matrix = rows.data<double>();
+        request.window = sides.data<double>();
+        set_camera(scene_to_change(self).tables, request);
+        return none();
+    });
+}
+
+FilmPasses parse_passes(PyObject* names) {
+    FilmPasses passes;
+    if (!names || names == Py_None) return passes;
+    const PyRef sequence = checked(PySequence_Tuple(names));
+    for (Py_ssize_t k = 0; k < PyTuple_Size(sequence.get()); ++k) {
+        Py_ssize_t size;
+        const char* text = PyUnicode_AsUTF8AndSize(PyTuple_GetItem(sequence.get(), k), &size);
+        if (!text) throw PythonError{};
+        const std::string name(text, size);
+        if (name == "depth")
+            passes.depth = true;
+        else if (name == "normal")
+            passes.normal = true;
+        else if (name == "alpha")
+            passes.alpha = true;
+        else
+            throw ArgumentError("passes: expected depth, normal or alpha, got " + name);
+    }
+    return passes;
+}
+
+PixelRect parse_border(PyObject* border, int width, int height) {
+    PixelRect rect{0, 0, width, height};
+    if (!border || border == Py_None) return rect;
+    const PyRef sides = checked(PySequence_Tuple(border));
+    if (!PyArg_ParseTuple(sides.get(), "iiii;border: expected (x_min, y_min, x_max, y_max)",
+                          &rect.x_min, &rect.y_min, &rect.x_max, &rect.y_max))
+        throw PythonError{};
+    if (rect.x_min < 0 || rect.y_min < 0 || rect.x_max > width || rect.y_max > height ||
+        rect.x_min >= rect.x_max || rect.y_min >= rect.y_max)
+        throw ArgumentError("border: empty or outside the picture");
+    return rect;
+}
+
+void check_request(const RenderRequest& request) {
+    if (request.width < 1 || request.height < 1 || request.width > kLargestSide ||
+        request.height > kLargestSide)
+        throw ArgumentError("width, height: expected 1 to " + std::to_string(kLargestSide));
+    if (request.samples < 1 || request.samples > 1 << 30)
+        throw ArgumentError("samples: expected 1 to 2^30");
+    if (request.max_bounces < 0 || request.max_bounces > 1 << 20)
+        throw ArgumentError("max_bounces: expected 0 to 2^20");
+    if (request.threads < 0 || request.threads > 4096)
+        throw ArgumentError("threads: expected 0 to 4096");
+}
+
+PyObject* start_render_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        RenderRequest request{};
+        long long samples;
+        unsigned long long seed = 0;
+        PyObject *passes = nullptr, *border = nullptr;
+        request.max_bounces = 12;
+        const char* const names[] = {"width",   "height", "samples", "seed", "max_bounces",
+                                     "threads", "passes", "border",  nullptr};
+        parse_arguments(args, kwargs, "iiL|KiiOO", names, &request.width, &request.height, &samples,
+                        &seed, &request.max_bounces, &request.threads, &passes, &border);
+        request.samples = samples;
+        request.seed = static_cast<uint32_t>(seed ^ (seed >> 32));
+        check_request(request);
+        request.passes = parse_passes(passes);
+        request.rect = parse_border(border, request.width, request.height);
+        return start_job(self, request);
+    });
+}
+
+}  // namespace
+
+PyMethodDef kSceneRenderMethods[] = {
+    {"add_image", as_method(add_image_method), METH_VARARGS | METH_KEYWORDS,
+     "add_image(pixels, srgb=True) -> image index\n\n"
+     "pixels: uint8 or float32 (h, w, 1 | 3 | 4), row 0 at the bottom."},
+    {"set_textures", set_table_method<set_textures>, METH_O,
+     "set_textures(table): float32 (n, len(TEXTURE_FIELDS)); images must be there"},
+    {"set_materials", set_table_method<set_materials>, METH_O,
+     "set_materials(table): float32 (n, len(MATERIAL_FIELDS)); textures must be there"},
+    {"set_lights", set_table_method<set_lights>, METH_O,
+     "set_lights(table): float32 (n, len(LIGHT_FIELDS))"},
+    {"set_world", as_method(set_world_method), METH_VARARGS | METH_KEYWORDS,
+     "set_world(r, g, b): radiance of the constant world"},
+    {"set_camera", as_method(set_camera_method), METH_VARARGS | METH_KEYWORDS,
+     "set_camera(kind, matrix, window, clip_start=1e-6, clip_end=1e30)\n\n"
+     "kind 0 is perspective, 1 orthographic; matrix float64 (3, 4); window float64 (4,)."},
+    {"start_render", as_method(start_render_method), METH_VARARGS | METH_KEYWORDS,
+     "start_render(width, height, samples, seed=0, max_bounces=12, threads=0, passes=(), "
+     "border=None) -> Job"},
+    {nullptr, nullptr, 0, nullptr}};
 
 }  // namespace trg::py

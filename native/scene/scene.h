@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "accel/world.h"
+#include "scene/shading_tables.h"
 
 namespace trg {
 
@@ -21,6 +22,7 @@ struct Scene {
     std::vector<int32_t> slot_materials;      // slot -> material, of all instances in a row
     std::vector<int64_t> first_slot;          // one an instance: where its slots begin
     std::vector<int32_t> slot_count;          // one an instance
+    ShadingTables tables;
 };
 
 }  // namespace trg

@@ -1,0 +1,23 @@
+/// The error of a picture, told from the spread of its replicates.
+#pragma once
+
+#include <vector>
+
+#include "cpu/film.h"
+
+namespace trg {
+
+/// `mse` is the mean over pixels and channels of the unbiased variance of the picture; `relmse` the
+/// same over picture^2 + 0.01; `delete_one_mse` the mse without each replicate (jackknife).
+/// Below 2 replicates only `replicates` holds; below 3 `delete_one_mse` is empty.
+struct PictureError {
+    int replicates = 0;
+    double mse = 0.0, relmse = 0.0;
+    std::vector<double> delete_one_mse;
+};
+
+/// Replicate means have variance sigma^2 / n_r: they are weighted by their counts. Replicates count
+/// that have samples in every tile.
+PictureError measure_error(const Film& film);
+
+}  // namespace trg

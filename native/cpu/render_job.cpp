@@ -1,0 +1,160 @@
+#include "cpu/render_job.h"
+
+#include <algorithm>
+
+#include "base/parallel.h"
+
+namespace trg {
+
+namespace {
+
+/// One sample of each replicate; with the tile's pixels, the paths of one wavefront.
+constexpr int32_t kSamplesPerPass = kReplicates;
+
+/// First sample of `pass`: 0, 1, 2, 4, then every eighth. The first passes are small, so that a
+/// picture is there soon.
+int64_t first_sample_of(int64_t pass) {
+    if (pass > 3) return kSamplesPerPass * (pass - 3);
+    return pass < 3 ? pass : 4;
+}
+
+int64_t count_passes(int64_t samples) {
+    int64_t pass = samples > kSamplesPerPass ? 2 + samples / kSamplesPerPass : 0;
+    while (first_sample_of(pass) < samples) ++pass;
+    return pass;
+}
+
+/// Queues of 2048 paths fit the second-level cache; small pictures are cut finer, so that every
+/// thread has work.
+int32_t choose_tile_size(const PixelRect& rect, int threads) {
+    const int64_t pixels =
+        static_cast<int64_t>(rect.x_max - rect.x_min) * (rect.y_max - rect.y_min);
+    int32_t size = 16;
+    while (size > 4 && pixels < static_cast<int64_t>(size) * size * 4 * threads) size /= 2;
+    return size;
+}
+
+}  // namespace
+
+RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
+    : request_(request),
+      frozen_(scene),
+      film_(request.rect, request.passes, request.samples,
+            choose_tile_size(request.rect, resolve_threads(request.threads))),
+      kernels_(choose_kernel_set(frozen_.features())),
+      view_{frozen_.view(), request.width, request.height, request.seed, request.max_bounces},
+      work_count_(count_passes(request.samples) * film_.tile_count()),
+      start_(Clock::now()),
+      end_(start_) {
+    const int threads = static_cast<int>(
+        std::min<int64_t>(resolve_threads(request.threads), film_.tile_count()));
+    const EmitterView& emitters = view_.scene.emitters;
+    const int32_t lights = emitters.always_count + (emitters.pool_count > 0 ? 1 : 0);
+    for (int k = 0; k < threads; ++k) storages_.emplace_back(film_.tile_pixels() * kSamplesPerPass, lights);
+    running_ = threads;
+    try {
+        for (int k = 0; k < threads; ++k)
+            threads_.emplace_back([this, k] { run_thread(storages_[k]); });
+    } catch (...) {
+        cancel();
+        for (std::thread& thread : threads_) thread.join();
+        throw;
+    }
+}
+
+RenderJob::~RenderJob() {
+    cancel();
+    for (std::thread& thread : threads_) thread.join();
+}
+
+RenderJob::Work RenderJob::work_at(int64_t index) const {
+    const int64_t pass = index / film_.tile_count();
+    const int64_t first = first_sample_of(pass);
+    const int64_t last = std::min(first_sample_of(pass + 1), request_.samples);
+    return {static_cast<int>(index % film_.tile_count()), static_cast<uint32_t>(first),
+            static_cast<int32_t>(last - first)};
+}
+
+void RenderJob::run_thread(QueueStorage& storage) {
+    while (!cancelled_.load(std::memory_order_relaxed)) {
+        const int64_t index = next_work_.fetch_add(1, std::memory_order_relaxed);
+        if (index >= work_count_) break;
+        const Work work = work_at(index);
+        RayCounts counts{};
+        if (!wait_for_turn(work) || !render_work(work, storage, &counts)) break;
+        finish_work(counts);
+    }
+    finish_thread();
+}
+
+/// Another thread may still be at this tile's pass before: sums are made in one order only.
+bool RenderJob::wait_for_turn(const Work& work) const {
+    const Tile& tile = film_.tile(work.tile);
+    while (tile.samples_published.load(std::memory_order_acquire) != work.first_sample) {
+        if (cancelled_.load(std::memory_order_relaxed)) return false;
+        std::this_thread::yield();
+    }
+    return true;
+}
+
+/// Renders a tile's pass as one wavefront; the film takes all of it or, when cancelled, nothing.
+bool RenderJob::render_work(const Work& work, QueueStorage& storage, RayCounts* counts) {
+    Tile& tile = film_.tile(work.tile);
+    PathQueues queues = storage.view();
+    const int32_t pixel_count = static_cast<int32_t>(tile.pixels.size());
+    const Chunk chunk{tile.pixels.data(), pixel_count, work.first_sample, work.samples};
+    const bool with_depth = request_.passes.depth && work.first_sample == 0;
+    if (with_depth)
+        render_depth(view_, chunk.pixels, pixel_count, queues, storage.depth());
+    if (!kernels_.render_chunk(view_, chunk, queues, cancelled_, counts)) return false;
+    {
+        const std::lock_guard<std::mutex> hold(tile.lock);
+        if (with_depth) film_.set_depth(chunk.pixels, pixel_count, storage.depth());
+        film_.add(chunk, queues.results);
+        tile.samples_done = work.first_sample + static_cast<uint32_t>(work.samples);
+        tile.samples_published.store(tile.samples_done, std::memory_order_release);
+    }
+    pixel_samples_.fetch_add(static_cast<int64_t>(pixel_count) * work.samples,
+                             std::memory_order_relaxed);
+    return true;
+}
+
+void RenderJob::finish_work(const RayCounts& counts) {
+    camera_rays_.fetch_add(counts.camera, std::memory_order_relaxed);
+    shadow_rays_.fetch_add(counts.shadow, std::memory_order_relaxed);
+    bounce_rays_.fetch_add(counts.bounce, std::memory_order_relaxed);
+}
+
+void RenderJob::finish_thread() {
+    const std::lock_guard<std::mutex> hold(lock_);
+    if (--running_ > 0) return;
+    end_ = Clock::now();
+    ended_.notify_all();
+}
+
+void RenderJob::cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+
+RenderProgress RenderJob::wait(double timeout_s) {
+    std::unique_lock<std::mutex> hold(lock_);
+    ended_.wait_for(hold, std::chrono::duration<double>(timeout_s), [&] { return running_ == 0; });
+    return progress();
+}
+
+RenderProgress RenderJob::progress() const {
+    const int64_t pixels = static_cast<int64_t>(film_.width()) * film_.height();
+    const int64_t done = pixel_samples_.load(std::memory_order_relaxed);
+    const Clock::time_point until = running_ == 0 ? end_ : Clock::now();
+    RenderProgress state{};
+    state.done = running_ == 0;
+    state.cancelled = state.done && done < pixels * request_.samples;
+    state.samples = done / pixels;
+    state.target = request_.samples;
+    state.seconds = std::chrono::duration<double>(until - start_).count();
+    state.rays = {camera_rays_.load(std::memory_order_relaxed),
+                  shadow_rays_.load(std::memory_order_relaxed),
+                  bounce_rays_.load(std::memory_order_relaxed)};
+    state.rejected_samples = film_.rejected();
+    return state;
+}
+
+}  // namespace trg

@@ -1,0 +1,84 @@
+/// A render under way: a team of threads that fills a film tile by tile, pass by pass.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <thread>
+
+#include "cpu/film.h"
+#include "cpu/queue_storage.h"
+#include "kernel/kernel_sets.h"
+#include "scene/frozen_scene.h"
+
+namespace trg {
+
+struct RenderRequest {
+    int32_t width, height;
+    PixelRect rect;          // the part to render
+    int64_t samples;
+    uint32_t seed;
+    int32_t max_bounces;
+    int threads;             // 0: all cores
+    FilmPasses passes;
+};
+
+struct RenderProgress {
+    bool done, cancelled;
+    int64_t samples;         // a pixel, rounded down over the picture
+    int64_t target;
+    double seconds;
+    RayCounts rays;
+    int64_t rejected_samples;
+};
+
+class RenderJob {
+  public:
+    /// Starts at once. `scene` must be built, must outlive the job and must not change meanwhile.
+    RenderJob(const Scene& scene, const RenderRequest& request);
+    /// Cancels and waits for the threads.
+    ~RenderJob();
+    RenderJob(const RenderJob&) = delete;
+    RenderJob& operator=(const RenderJob&) = delete;
+
+    /// The state after at most `timeout_s`, sooner when the job ends.
+    RenderProgress wait(double timeout_s);
+    void cancel();
+    const Film& film() const { return film_; }
+    const char* kernel_set() const { return kernels_.name; }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+    struct Work {
+        int tile;
+        uint32_t first_sample;
+        int32_t samples;
+    };
+
+    Work work_at(int64_t index) const;
+    void run_thread(QueueStorage& storage);
+    bool render_work(const Work& work, QueueStorage& storage, RayCounts* counts);
+    bool wait_for_turn(const Work& work) const;
+    void finish_thread();
+    void finish_work(const RayCounts& counts);
+    RenderProgress progress() const;
+
+    RenderRequest request_;
+    FrozenScene frozen_;
+    Film film_;
+    const KernelSet& kernels_;
+    RenderView view_;
+    int64_t work_count_;
+    std::atomic<int64_t> next_work_{0};
+    std::atomic<int64_t> pixel_samples_{0};
+    std::atomic<int64_t> camera_rays_{0}, shadow_rays_{0}, bounce_rays_{0};
+    std::atomic<bool> cancelled_{false};
+    Clock::time_point start_;
+    Clock::time_point end_;
+    int running_ = 0;
+    mutable std::mutex lock_;   // guards running_ and end_
+    std::condition_variable ended_;
+    std::vector<QueueStorage> storages_;
+    std::vector<std::thread> threads_;
+};
+
+}  // namespace trg

@@ -1,0 +1,120 @@
+/// Next-event estimation: shadow rays for the lights that always get one and for one of the pool.
+#pragma once
+
+#include "kernel/path_queues.h"
+#include "kernel/surface.h"
+#include "shade/bsdf.h"
+
+namespace trg {
+
+/// Where a path scatters, ready for light and for the next direction.
+struct Vertex {
+    Surface surface;
+    Vec3 ng;           // geometric normal on the viewer's side
+    Frame frame;       // around the shading normal on the viewer's side
+    Bsdf bsdf;
+    Vec3 throughput;
+    SampleKey key;
+    uint32_t dimension;
+    int32_t path;
+};
+
+struct ShadowQueue {
+    Ray* rays;
+    ShadowState* states;
+    int32_t count;
+};
+
+/// Emission of `m` at texture coordinates (u, v).
+template <uint32_t F>
+TRG_FN Vec3 eval_emission(const SceneView& scene, const Material& m, float u, float v) {
+    if constexpr (has(F, kTextures))
+        if (m.emission_texture >= 0)
+            return m.emission *
+                   eval_texture(scene.textures, scene.textures.textures[m.emission_texture], u, v);
+    return m.emission;
+}
+
+/// Where a ray that leaves `s` along `wi` starts.
+TRG_FN Vec3 ray_origin(const Surface& s, Vec3 ng, Vec3 wi) {
+    return leave_surface(s, dot(ng, wi) > 0.0f ? ng : -ng);
+}
+
+/// The index whose share of 2^32 `bits` falls in.
+TRG_FN int32_t find_share(const uint32_t* limits, int32_t count, uint32_t bits) {
+    int32_t low = 0, high = count - 1;
+    while (low < high) {
+        const int32_t middle = (low + high) / 2;
+        if (bits < limits[middle])
+            high = middle;
+        else
+            low = middle + 1;
+    }
+    return low;
+}
+
+/// Queues what light `index`, chosen with chance `share`, sends to `v`.
+template <uint32_t F>
+TRG_FN void add_light_sample(const SceneView& scene, const Vertex& v, int32_t index, float share,
+                             Sample2 uv, ShadowQueue* queue) {
+    LightSample sample;
+    if (!sample_light(scene.lights[index], v.surface.position, uv, &sample)) return;
+    const BsdfValue f =
+        eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, sample.wi));
+    const float weight =
+        sample.pdf > 0.0f ? power_heuristic(share * sample.pdf, f.pdf) / share : 1.0f / share;
+    const Vec3 light = v.throughput * f.f_cos * sample.light * weight;
+    if (is_black(light)) return;
+    // The last bit of the way is left out: geometry may touch the light.
+    const float t_max = sample.distance < kFar ? sample.distance * 0.999998f : kFar;
+    queue->rays[queue->count] = {ray_origin(v.surface, v.ng, sample.wi), 0.0f, sample.wi, t_max};
+    queue->states[queue->count++] = {light, v.path};
+}
+
+/// Queues what a random point of the emissive triangles sends to `v`.
+template <uint32_t F>
+TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v, uint32_t choice, Sample2 uv,
+                                ShadowQueue* queue) {
+    const EmitterView& e = scene.emitters;
+    const EmissiveTriangle& at = e.triangles[find_share(e.triangle_limits, e.triangle_count, choice)];
+    const float root = std::sqrt(uv.u);
+    const Surface s = make_surface<F>(scene, at, root * (1.0f - uv.v), root * uv.v);
+    const Material& m = scene.materials[s.material];
+    const bool in_front = dot(s.outside, v.surface.position - s.position) > 0.0f;
+    const Vec3 target = leave_surface(s, in_front ? s.outside : -s.outside);
+    const Vec3 to = target - v.surface.position;
+    const float d2 = dot(to, to);
+    const Vec3 wi = to / std::sqrt(d2);
+    const float cosine = std::fabs(dot(s.outside, wi));
+    if (!(d2 > 0.0f) || !(cosine > 0.0f)) return;
+    const float pdf = e.triangle_density * m.emission_weight * d2 / cosine;
+    const BsdfValue f = eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, wi));
+    const Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, m, s.u, s.v) *
+                       (power_heuristic(pdf, f.pdf) / pdf);
+    if (is_black(light)) return;
+    const Vec3 origin = ray_origin(v.surface, v.ng, wi);
+    queue->rays[queue->count] = {origin, 0.0f, target - origin, 1.0f};
+    queue->states[queue->count++] = {light, v.path};
+}
+
+/// All light samples of one vertex.
+template <uint32_t F>
+TRG_FN void add_light_samples(const SceneView& scene, const Vertex& v, ShadowQueue* queue) {
+    const EmitterView& e = scene.emitters;
+    for (int32_t k = 0; k < e.always_count; ++k)
+        add_light_sample<F>(scene, v, e.always[k], 1.0f,
+                            sample_uniform2(v.key, v.dimension + kAlwaysLight + k), queue);
+    if (e.pool_count == 0) return;
+    const Sample2 uv = sample_uniform2(v.key, v.dimension + kPoolPoint);
+    uint32_t choice[2] = {0, 0};
+    if (e.pool_count > 1 || e.triangle_count > 1)
+        sample_bits(v.key, v.dimension + kPoolChoice, choice);
+    const int32_t entry = find_share(e.pool_limits, e.pool_count, choice[0]);
+    if (e.pool[entry] >= 0) {
+        add_light_sample<F>(scene, v, e.pool[entry], e.pool_shares[entry], uv, queue);
+    } else {
+        if constexpr (has(F, kExtendedEmitters)) add_triangle_sample<F>(scene, v, choice[1], uv, queue);
+    }
+}
+
+}  // namespace trg

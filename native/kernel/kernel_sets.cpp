@@ -1,0 +1,43 @@
+#include "kernel/kernel_sets.h"
+
+#include "base/isa.h"
+#include "kernel/camera.h"
+#include "kernel/wavefront.h"
+
+namespace trg {
+
+namespace {
+
+const KernelSet* sets_of_machine(int* count) {
+#if defined(TRG_HAS_X86_VARIANTS)
+    switch (detect_isa()) {
+        case Isa::avx512: return avx512::kernel_sets(count);
+        case Isa::avx2: return avx2::kernel_sets(count);
+        default: break;
+    }
+#endif
+    return baseline::kernel_sets(count);
+}
+
+}  // namespace
+
+const KernelSet& choose_kernel_set(uint32_t features) {
+    int count;
+    const KernelSet* sets = sets_of_machine(&count);
+    for (int k = 0; k < count; ++k)
+        if ((features & ~sets[k].features) == 0) return sets[k];
+    return sets[count - 1];
+}
+
+const char* kernel_set_names() { return "plain lamps textured full"; }
+
+void render_depth(const RenderView& view, const Pixel* pixels, int32_t count, PathQueues& queues,
+                  float* depth) {
+    for (int32_t i = 0; i < count; ++i)
+        queues.rays[i] = make_camera_ray(view, static_cast<float>(pixels[i].x) + 0.5f,
+                                         static_cast<float>(pixels[i].y) + 0.5f);
+    intersect_closest(*view.scene.world, queues.rays, queues.hits, count);
+    for (int32_t i = 0; i < count; ++i) depth[i] = queues.hits[i].triangle < 0 ? 1e10f : queues.hits[i].t;
+}
+
+}  // namespace trg

@@ -1,0 +1,79 @@
+/// Paths in flight as structures of arrays, borrowed from room cpu.
+#pragma once
+
+#include "kernel/scene_view.h"
+#include "shade/sampler.h"
+
+namespace trg {
+
+/// What a path carries from one surface to the next.
+struct PathState {
+    Vec3 throughput;
+    float pdf;        // of the ray's direction, by solid angle; 0 after a delta or from the camera
+    int32_t path;
+};
+
+/// What a path leaves behind.
+struct PathResult {
+    Vec3 radiance;
+    Vec3 normal;      // of the first surface, turned to the viewer; null for a miss
+    bool hit;
+};
+
+/// Light that arrives unless its shadow ray is stopped.
+struct ShadowState {
+    Vec3 light;
+    int32_t path;
+};
+
+/// Arrays of `capacity` paths; slots [0, count) hold the living ones.
+struct PathQueues {
+    int32_t capacity;
+    Ray* rays;
+    Hit* hits;
+    PathState* states;
+    SampleKey* keys;         // by path
+    PathResult* results;     // by path
+    Ray* shadow_rays;
+    ShadowState* shadows;
+    uint8_t* hidden;
+};
+
+struct Pixel {
+    int32_t x, y;
+};
+
+/// Samples [first_sample, first_sample + samples) of some pixels; path i is pixel i / samples.
+struct Chunk {
+    const Pixel* pixels;
+    int32_t pixel_count;
+    uint32_t first_sample;
+    int32_t samples;
+};
+
+/// What holds for a whole render.
+struct RenderView {
+    SceneView scene;
+    int32_t width, height;   // of the whole picture
+    uint32_t seed;
+    int32_t max_bounces;
+};
+
+struct RayCounts {
+    int64_t camera, shadow, bounce;
+};
+
+/// Pairs of dimensions of the sampler: the camera's, then a block for each surface.
+enum Dimension : uint32_t {
+    kPixelDimension = 0,
+    kFirstBounceDimension = 1,
+    kDirection = 0,
+    kLobe = 1,               // lobe and roulette
+    kPoolPoint = 2,
+    kPoolChoice = 3,
+    kAlwaysLight = 4,        // and the three after it
+    kDimensionsPerBounce = 8,
+};
+constexpr int kMostAlwaysLights = 4;
+
+}  // namespace trg

@@ -1,0 +1,71 @@
+/// The scene as kernels see it: plain tables, borrowed from room scene while a render runs.
+#pragma once
+
+#include "accel/world.h"
+#include "shade/lights.h"
+#include "shade/material.h"
+
+namespace trg {
+
+/// What a scene may need; a kernel set is compiled for a union of these.
+enum Feature : uint32_t {
+    kTextures = 1,
+    kSmoothNormals = 2,
+    kTransmission = 4,
+    kExtendedEmitters = 8,   // lights with extent, and surfaces that emit
+};
+
+TRG_FN constexpr bool has(uint32_t features, Feature feature) { return (features & feature) != 0; }
+
+struct MeshView {
+    const Vec3* vertices;
+    const Triangle* triangles;
+    const float* normals;    // 9 a triangle, or null
+    const float* uvs;        // 6 a triangle, or null
+    const int32_t* slots;    // 1 a triangle, or null
+};
+
+struct EmissiveTriangle {
+    int32_t instance, triangle;
+};
+
+/// Who is sampled for direct light. Thresholds are cumulative shares of 2^32, the last one open.
+struct EmitterView {
+    const int32_t* always;         // lights that get a sample at every point
+    int32_t always_count;
+    const int32_t* pool;           // lights that share one sample; -1: the emissive triangles
+    const uint32_t* pool_limits;
+    const float* pool_shares;
+    int32_t pool_count;
+    const int32_t* extended;       // lights that bounce rays can see
+    const float* extended_shares;  // how often each is chosen: 1 for those that always are
+    int32_t extended_count;
+    const EmissiveTriangle* triangles;
+    const uint32_t* triangle_limits;
+    int32_t triangle_count;
+    float triangle_density;        // chance, by area and per unit of emission_weight, of a point
+};
+
+struct CameraView {
+    bool perspective;
+    Vec3 axis_x, axis_y, axis_z, origin;
+    float left, right, bottom, top;
+    float clip_start, clip_end;
+};
+
+struct SceneView {
+    const World* world;
+    const MeshView* meshes;
+    const Instance* instances;
+    const int32_t* slot_materials;   // of all instances in a row
+    const int64_t* first_slot;       // one an instance
+    const int32_t* slot_count;       // one an instance; 0: material 0
+    const Material* materials;
+    TextureSet textures;
+    const Light* lights;
+    EmitterView emitters;
+    Vec3 background;
+    CameraView camera;
+};
+
+}  // namespace trg

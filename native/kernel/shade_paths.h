@@ -1,0 +1,145 @@
+/// The shading stage: every living path meets its surface (or none), collects emission, asks for
+/// light and goes on.
+#pragma once
+
+#include "kernel/direct_light.h"
+
+namespace trg {
+
+/// Roulette begins at this surface; the camera sees surface 0.
+constexpr int32_t kFirstRoulette = 2;
+
+/// The stage's own view of its queues.
+struct ShadeStage {
+    const RenderView& view;
+    PathQueues& queues;
+    int32_t depth;        // surface number, 0 for the one that the camera sees
+    ShadowQueue shadows;
+    int32_t next_count;
+};
+
+/// What lights with extent add to a bounce ray that ends at `t_end`.
+TRG_FN Vec3 gather_lights(const SceneView& scene, const Ray& ray, float t_end, float pdf) {
+    Vec3 sum{0.0f, 0.0f, 0.0f};
+    const EmitterView& e = scene.emitters;
+    for (int32_t k = 0; k < e.extended_count; ++k) {
+        LightHit hit;
+        if (!intersect_light(scene.lights[e.extended[k]], ray.origin, ray.direction, t_end, &hit))
+            continue;
+        const float weight =
+            pdf > 0.0f ? power_heuristic(pdf, e.extended_shares[k] * hit.pdf) : 1.0f;
+        sum = sum + hit.radiance * weight;
+    }
+    return sum;
+}
+
+/// Emission of the surface met, weighted against the chance of sampling it as a light.
+template <uint32_t F>
+TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Ray& ray, float t,
+                          float pdf) {
+    const Material& m = scene.materials[s.material];
+    const Vec3 light = eval_emission<F>(scene, m, s.u, s.v);
+    if (!(pdf > 0.0f) || !(scene.emitters.triangle_density > 0.0f)) return light;
+    const float cosine = std::fabs(dot(s.outside, ray.direction));
+    if (!(cosine > 0.0f)) return light;
+    const float density = scene.emitters.triangle_density * m.emission_weight;
+    return light * power_heuristic(pdf, density * t * t / cosine);
+}
+
+/// The material at the point, its textures looked up.
+template <uint32_t F>
+TRG_FN Material material_at(const SceneView& scene, const Surface& s) {
+    Material m = scene.materials[s.material];
+    if constexpr (has(F, kTextures)) {
+        const TextureSet& set = scene.textures;
+        if (m.base_texture >= 0) m.base = eval_texture(set, set.textures[m.base_texture], s.u, s.v);
+        if (m.roughness_texture >= 0)
+            m.roughness = clamp01(eval_texture(set, set.textures[m.roughness_texture], s.u, s.v).x);
+        if (m.metallic_texture >= 0)
+            m.metallic = clamp01(eval_texture(set, set.textures[m.metallic_texture], s.u, s.v).x);
+        m.base = {clamp01(m.base.x), clamp01(m.base.y), clamp01(m.base.z)};
+    }
+    return m;
+}
+
+/// Normals and mixture at the surface that `hit` names, seen along `wo`; false when it scatters
+/// nothing. `normal` receives the shading normal turned to the viewer.
+template <uint32_t F>
+TRG_FN bool make_vertex(const SceneView& scene, const Hit& hit, Vec3 wo, Vertex* v, Vec3* normal) {
+    const Surface& s = v->surface;
+    const float facing = dot(s.outside, wo);
+    v->ng = facing < 0.0f ? -s.outside : s.outside;
+    *normal = v->ng;
+    if constexpr (has(F, kSmoothNormals)) {
+        const Vec3 smooth = smooth_normal(scene, hit);
+        const Vec3 turned = facing < 0.0f ? -smooth : smooth;
+        if (dot(wo, turned) > 1e-4f) *normal = turned;
+    }
+    if (!(dot(wo, *normal) > 0.0f)) return false;
+    v->frame = make_frame(*normal);
+    const View view{to_local(v->frame, wo), to_local(v->frame, v->ng), facing >= 0.0f};
+    return make_bsdf<has(F, kTransmission)>(material_at<F>(scene, s), view, &v->bsdf);
+}
+
+/// Draws the next direction and keeps the path if it survives roulette.
+template <uint32_t F>
+TRG_FN void continue_path(ShadeStage& stage, const Vertex& v) {
+    const Sample2 choice = sample_uniform2(v.key, v.dimension + kLobe);
+    const Sample2 uv = sample_uniform2(v.key, v.dimension + kDirection);
+    BsdfSample next;
+    if (!sample_bsdf<has(F, kTransmission)>(v.bsdf, choice.u, uv, &next)) return;
+    Vec3 throughput = v.throughput * next.weight;
+    if (stage.depth >= kFirstRoulette) {
+        const float chance = std::sqrt(max_component(throughput));
+        if (chance < 1.0f) {
+            if (!(choice.v < chance)) return;
+            throughput = throughput / chance;
+        }
+    }
+    if (is_black(throughput)) return;
+    const Vec3 wi = normalize(to_world(v.frame, next.wi));
+    const int32_t slot = stage.next_count++;
+    stage.queues.rays[slot] = {ray_origin(v.surface, v.ng, wi), 0.0f, wi, kFar};
+    stage.queues.states[slot] = {throughput, next.pdf, v.path};
+}
+
+/// One path at the end of its ray. Slots are written at or before the one being read.
+template <uint32_t F>
+TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
+    const SceneView& scene = stage.view.scene;
+    const Ray ray = stage.queues.rays[slot];
+    const Hit hit = stage.queues.hits[slot];
+    const PathState state = stage.queues.states[slot];
+    PathResult& result = stage.queues.results[state.path];
+    if constexpr (has(F, kExtendedEmitters))
+        if (stage.depth > 0 && scene.emitters.extended_count > 0)
+            result.radiance =
+                result.radiance +
+                state.throughput *
+                    gather_lights(scene, ray, hit.triangle >= 0 ? hit.t : kFar, state.pdf);
+    if (hit.triangle < 0) {
+        result.radiance = result.radiance + state.throughput * scene.background;
+        return;
+    }
+    if (stage.depth == 0) result.hit = true;
+    Vertex v;
+    v.surface = make_surface<F>(scene, {hit.instance, hit.triangle}, hit.u, hit.v);
+    if constexpr (has(F, kExtendedEmitters))
+        if (scene.materials[v.surface.material].emission_weight > 0.0f)
+            result.radiance = result.radiance +
+                              state.throughput *
+                                  emission_seen<F>(scene, v.surface, ray, hit.t, state.pdf);
+    if (stage.depth > stage.view.max_bounces) return;
+    Vec3 normal;
+    const bool scatters = make_vertex<F>(scene, hit, -normalize(ray.direction), &v, &normal);
+    if (stage.depth == 0) result.normal = normal;
+    if (!scatters) return;
+    v.throughput = state.throughput;
+    v.path = state.path;
+    v.key = stage.queues.keys[state.path];
+    v.dimension = kFirstBounceDimension + kDimensionsPerBounce * static_cast<uint32_t>(stage.depth);
+    add_light_samples<F>(scene, v, &stage.shadows);
+    continue_path<F>(stage, v);
+}
+
+}  // namespace trg

@@ -1,0 +1,103 @@
+/// The point that a ray met: position with its error, normals, texture coordinates, material.
+#pragma once
+
+#include "kernel/scene_view.h"
+
+namespace trg {
+
+struct Surface {
+    Vec3 position;
+    Vec3 outside;      // unit geometric normal on the outer side
+    float error;       // how far along the normal the true surface may be
+    float area2;       // twice the triangle's area in world space
+    float u, v;        // texture coordinates
+    int32_t material;
+};
+
+struct Corners {
+    Vec3 p0, e1, e2;
+};
+
+TRG_FN Corners triangle_corners(const MeshView& mesh, int32_t triangle) {
+    const Triangle& t = mesh.triangles[triangle];
+    const Vec3 p0 = mesh.vertices[t.vertex[0]];
+    return {p0, mesh.vertices[t.vertex[1]] - p0, mesh.vertices[t.vertex[2]] - p0};
+}
+
+/// Bound, along the normal `n`, on the distance between a point computed from barycentrics and its
+/// triangle as rays see it: rounding of the point, of the map to the world, and of rays taken into
+/// the object's space (after Waechter and Binder 2019 and NVIDIA's self-intersection bounds).
+TRG_FN float offset_bound(const Instance& instance, const Corners& c, Vec3 position, Vec3 n) {
+    constexpr float kEps = 2.4e-7f;   // four half-ulps
+    const Vec3 size = absolute(c.p0) + absolute(c.e1) + absolute(c.e2);
+    Vec3 error = absolute(position) + size;
+    if (!instance.identity) {
+        const Transform& m = instance.object_to_world;
+        const Vec3 shift{std::fabs(m.m[0][3]), std::fabs(m.m[1][3]), std::fabs(m.m[2][3])};
+        Vec3 spread;
+        float* rows[3] = {&spread.x, &spread.y, &spread.z};
+        for (int k = 0; k < 3; ++k)
+            *rows[k] = std::fabs(m.m[k][0]) * size.x + std::fabs(m.m[k][1]) * size.y +
+                       std::fabs(m.m[k][2]) * size.z;
+        error = absolute(position) + (spread + shift) * 2.0f;
+    }
+    return kEps * dot(error, absolute(n)) + 1e-37f;
+}
+
+TRG_FN int32_t material_of(const SceneView& scene, const EmissiveTriangle& at) {
+    const int32_t count = scene.slot_count[at.instance];
+    if (count == 0) return 0;
+    const int32_t* slots = scene.meshes[scene.instances[at.instance].mesh].slots;
+    const int32_t slot = slots ? slots[at.triangle] : 0;
+    return scene.slot_materials[scene.first_slot[at.instance] + (slot < count ? slot : count - 1)];
+}
+
+/// The point with barycentrics (b1, b2). The normal is null where the triangle has no usable one.
+template <uint32_t F>
+TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, float b1, float b2) {
+    const Instance& instance = scene.instances[at.instance];
+    const MeshView& mesh = scene.meshes[instance.mesh];
+    const Corners c = triangle_corners(mesh, at.triangle);
+    Surface s;
+    // The base vertex comes last: it may be far larger than the edges.
+    s.position = c.p0 + (c.e1 * b1 + c.e2 * b2);
+    Vec3 e1 = c.e1, e2 = c.e2;
+    if (!instance.identity) {
+        s.position = transform_point(instance.object_to_world, s.position);
+        e1 = transform_vector(instance.object_to_world, e1);
+        e2 = transform_vector(instance.object_to_world, e2);
+    }
+    const float size = std::fmax(max_component(absolute(e1)), max_component(absolute(e2)));
+    const Vec3 n = cross(e1 / size, e2 / size);
+    s.outside = normalize_safe(instance.mirrored ? -n : n);
+    s.area2 = length(n) * size * size;
+    s.error = offset_bound(instance, c, s.position, s.outside);
+    s.material = material_of(scene, at);
+    s.u = s.v = 0.0f;
+    if (has(F, kTextures) && mesh.uvs) {
+        const float* uv = mesh.uvs + static_cast<int64_t>(at.triangle) * 6;
+        const float b0 = 1.0f - b1 - b2;
+        s.u = b0 * uv[0] + b1 * uv[2] + b2 * uv[4];
+        s.v = b0 * uv[1] + b1 * uv[3] + b2 * uv[5];
+    }
+    return s;
+}
+
+/// The interpolated corner normal in world space, on the side of `outside`'s winding; null where
+/// the mesh has none or where it is no direction.
+TRG_FN Vec3 smooth_normal(const SceneView& scene, const Hit& hit) {
+    const Instance& instance = scene.instances[hit.instance];
+    const float* corner = scene.meshes[instance.mesh].normals;
+    if (!corner) return {0.0f, 0.0f, 0.0f};
+    corner += static_cast<int64_t>(hit.triangle) * 9;
+    const Vec3 n0{corner[0], corner[1], corner[2]}, n1{corner[3], corner[4], corner[5]},
+        n2{corner[6], corner[7], corner[8]};
+    Vec3 n = n0 * (1.0f - hit.u - hit.v) + n1 * hit.u + n2 * hit.v;
+    if (!instance.identity) n = transform_transposed(instance.world_to_object, n);
+    return normalize_safe(n);
+}
+
+/// `position` moved off the surface to the side of `n` by its error.
+TRG_FN Vec3 leave_surface(const Surface& s, Vec3 n) { return s.position + n * s.error; }
+
+}  // namespace trg

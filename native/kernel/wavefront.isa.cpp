@@ -1,0 +1,81 @@
+#include "kernel/wavefront.h"
+
+#include "kernel/camera.h"
+#include "kernel/shade_paths.h"
+
+namespace trg {
+namespace TRG_ISA {
+
+namespace {
+
+/// Adds the light of the shadow rays that were not stopped.
+void accumulate_light(PathQueues& queues, int32_t count) {
+    for (int32_t i = 0; i < count; ++i) {
+        if (queues.hidden[i]) continue;
+        PathResult& result = queues.results[queues.shadows[i].path];
+        result.radiance = result.radiance + queues.shadows[i].light;
+    }
+}
+
+/// True when rays after the last scattering could still find light.
+template <uint32_t F>
+bool last_ray_matters(const SceneView& scene) {
+    return has(F, kExtendedEmitters) || !is_black(scene.background);
+}
+
+/// The rays after the last scattering when nothing but the background shines: any hit will do.
+void finish_in_background(const RenderView& view, PathQueues& queues, int32_t count) {
+    intersect_any(*view.scene.world, queues.rays, queues.hidden, count);
+    for (int32_t i = 0; i < count; ++i) {
+        if (queues.hidden[i]) continue;
+        PathResult& result = queues.results[queues.states[i].path];
+        result.radiance = result.radiance + queues.states[i].throughput * view.scene.background;
+    }
+}
+
+template <uint32_t F>
+bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues,
+                  const std::atomic<bool>& cancelled, RayCounts* counts) {
+    const World& world = *view.scene.world;
+    int32_t living = generate_paths(view, chunk, queues);
+    counts->camera += living;
+    for (int32_t depth = 0; living > 0; ++depth) {
+        if (cancelled.load(std::memory_order_relaxed)) return false;
+        if (depth > 0) counts->bounce += living;
+        if (depth > view.max_bounces && !has(F, kExtendedEmitters)) {
+            finish_in_background(view, queues, living);
+            return true;
+        }
+        intersect_closest(world, queues.rays, queues.hits, living);
+        ShadeStage stage{view, queues, depth, {queues.shadow_rays, queues.shadows, 0}, 0};
+        for (int32_t slot = 0; slot < living; ++slot) shade_path<F>(stage, slot);
+        if (stage.shadows.count > 0) {
+            counts->shadow += stage.shadows.count;
+            intersect_any(world, queues.shadow_rays, queues.hidden, stage.shadows.count);
+            accumulate_light(queues, stage.shadows.count);
+        }
+        living = stage.next_count;
+        if (depth == view.max_bounces && !last_ray_matters<F>(view.scene)) return true;
+    }
+    return true;
+}
+
+constexpr uint32_t kPlain = kSmoothNormals;
+constexpr uint32_t kLamps = kSmoothNormals | kExtendedEmitters;
+constexpr uint32_t kTextured = kLamps | kTextures;
+constexpr uint32_t kFull = kTextured | kTransmission;
+
+const KernelSet kSets[] = {{"plain", kPlain, render_chunk<kPlain>},
+                           {"lamps", kLamps, render_chunk<kLamps>},
+                           {"textured", kTextured, render_chunk<kTextured>},
+                           {"full", kFull, render_chunk<kFull>}};
+
+}  // namespace
+
+const KernelSet* kernel_sets(int* count) {
+    *count = static_cast<int>(sizeof kSets / sizeof kSets[0]);
+    return kSets;
+}
+
+}  // namespace TRG_ISA
+}  // namespace trg

@@ -1,0 +1,158 @@
+#include "scene/emitters.h"
+
+#include <algorithm>
+#include <numeric>
+
+#include "kernel/path_queues.h"
+#include "kernel/surface.h"
+
+namespace trg {
+
+namespace {
+
+/// Cumulative shares of 2^32, the last one all of it.
+std::vector<uint32_t> cumulate(const std::vector<double>& weights) {
+    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+    std::vector<uint32_t> limits;
+    double sum = 0.0;
+    for (double weight : weights) {
+        sum += weight;
+        limits.push_back(static_cast<uint32_t>(std::min(sum / total * 4294967296.0, 4294967295.0)));
+    }
+    return limits;
+}
+
+double world_area(const Scene& scene, const EmissiveTriangle& at) {
+    const Instance& instance = scene.world.instances[at.instance];
+    const Mesh& mesh = scene.world.meshes[instance.mesh];
+    const Triangle& t = mesh.triangles[at.triangle];
+    Vec3 p[3];
+    for (int k = 0; k < 3; ++k)
+        p[k] = transform_point(instance.object_to_world, mesh.vertices[t.vertex[k]]);
+    const Vec3d n = cross(to_double(p[1]) - to_double(p[0]), to_double(p[2]) - to_double(p[0]));
+    const double area = 0.5 * std::sqrt(dot(n, n));
+    return std::isfinite(area) ? area : 0.0;
+}
+
+bool any_slot_emits(const Scene& scene, int32_t instance) {
+    const int64_t first = scene.first_slot[instance];
+    if (scene.slot_count[instance] == 0)
+        return scene.tables.materials[0].emission_weight > 0.0f;
+    for (int32_t k = 0; k < scene.slot_count[instance]; ++k)
+        if (scene.tables.materials[scene.slot_materials[first + k]].emission_weight > 0.0f)
+            return true;
+    return false;
+}
+
+int32_t material_index(const Scene& scene, const EmissiveTriangle& at) {
+    const int32_t count = scene.slot_count[at.instance];
+    if (count == 0) return 0;
+    const std::vector<int32_t>& slots =
+        scene.attributes[scene.world.instances[at.instance].mesh].slots;
+    const int32_t slot = slots.empty() ? 0 : slots[at.triangle];
+    return scene.slot_materials[scene.first_slot[at.instance] + std::min(slot, count - 1)];
+}
+
+/// Fills in the emissive triangles; returns the sum of area times luminance.
+double gather_triangles(const Scene& scene, EmitterTables* tables) {
+    std::vector<double> weights;
+    for (size_t i = 0; i < scene.world.instances.size(); ++i) {
+        if (!any_slot_emits(scene, static_cast<int32_t>(i))) continue;
+        const Mesh& mesh = scene.world.meshes[scene.world.instances[i].mesh];
+        for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+            const EmissiveTriangle at{static_cast<int32_t>(i), static_cast<int32_t>(t)};
+            const double weight = scene.tables.materials[material_index(scene, at)].emission_weight *
+                                  world_area(scene, at);
+            if (!(weight > 0.0)) continue;
+            tables->triangles.push_back(at);
+            weights.push_back(weight);
+        }
+    }
+    if (weights.empty()) return 0.0;
+    tables->triangle_limits = cumulate(weights);
+    return std::accumulate(weights.begin(), weights.end(), 0.0);
+}
+
+double power_of(const Light& light) {
+    const double brightness = std::fabs(luminance(light.color));
+    switch (light.kind) {
+        case LightKind::sun: return brightness * (light.extended ? light.solid_angle : 1.0f);
+        case LightKind::point:
+        case LightKind::spot: {
+            const double sphere = light.extended ? kPi * light.radius * light.radius : 1.0;
+            const double cone = light.kind == LightKind::spot
+                                    ? std::max(0.5 * (1.0 - light.cos_outer), 1e-3)
+                                    : 1.0;
+            return 4.0 * kPi * brightness * sphere * cone;
+        }
+        default: return kPi * brightness * light.area;
+    }
+}
+
+/// Splits the lights into those always sampled and the pool, whose powers are returned.
+std::vector<double> split_lights(const std::vector<Light>& lights, EmitterTables* tables) {
+    std::vector<int32_t> suns;
+    std::vector<double> powers;
+    for (size_t k = 0; k < lights.size(); ++k)
+        if (lights[k].kind == LightKind::sun) suns.push_back(static_cast<int32_t>(k));
+    std::stable_sort(suns.begin(), suns.end(), [&](int32_t a, int32_t b) {
+        return power_of(lights[a]) > power_of(lights[b]);
+    });
+    for (int32_t sun : suns)
+        if (power_of(lights[sun]) > 0.0 && tables->always.size() < kMostAlwaysLights)
+            tables->always.push_back(sun);
+    for (size_t k = 0; k < lights.size(); ++k) {
+        const int32_t index = static_cast<int32_t>(k);
+        const bool taken = std::count(tables->always.begin(), tables->always.end(), index) > 0;
+        if (taken || !(power_of(lights[k]) > 0.0)) continue;
+        tables->pool.push_back(index);
+        powers.push_back(power_of(lights[k]));
+    }
+    return powers;
+}
+
+void list_extended(const std::vector<Light>& lights, EmitterTables* tables) {
+    for (int32_t index : tables->always)
+        if (lights[index].extended) {
+            tables->extended.push_back(index);
+            tables->extended_shares.push_back(1.0f);
+        }
+    for (size_t k = 0; k < tables->pool.size(); ++k) {
+        if (tables->pool[k] < 0 || !lights[tables->pool[k]].extended) continue;
+        tables->extended.push_back(tables->pool[k]);
+        tables->extended_shares.push_back(tables->pool_shares[k]);
+    }
+}
+
+}  // namespace
+
+EmitterTables build_emitters(const Scene& scene) {
+    EmitterTables tables;
+    std::vector<double> powers = split_lights(scene.tables.lights, &tables);
+    const double triangle_weight = gather_triangles(scene, &tables);
+    if (triangle_weight > 0.0) {
+        tables.pool.push_back(-1);
+        powers.push_back(2.0 * kPi * triangle_weight);
+    }
+    if (!powers.empty()) {
+        const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
+        // A floor keeps every emitter in the draw, however faint beside the others.
+        for (double& power : powers) power += 1e-3 * total / static_cast<double>(powers.size());
+        tables.pool_limits = cumulate(powers);
+        for (double power : powers) tables.pool_shares.push_back(static_cast<float>(power / (1.001 * total)));
+    }
+    if (triangle_weight > 0.0)
+        tables.triangle_density = static_cast<float>(tables.pool_shares.back() / triangle_weight);
+    list_extended(scene.tables.lights, &tables);
+    return tables;
+}
+
+EmitterView view_emitters(const EmitterTables& t) {
+    const auto size = [](const auto& v) { return static_cast<int32_t>(v.size()); };
+    return {t.always.data(),   size(t.always),           t.pool.data(),      t.pool_limits.data(),
+            t.pool_shares.data(), size(t.pool),          t.extended.data(),  t.extended_shares.data(),
+            size(t.extended),  t.triangles.data(),       t.triangle_limits.data(),
+            size(t.triangles), t.triangle_density};
+}
+
+}  // namespace trg

@@ -1,0 +1,86 @@
+#include "scene/shading_tables.h"
+#include "scene/table_reader.h"
+
+namespace trg {
+
+const std::vector<const char*> kLightFields = {
+    "kind",         "color_r",     "color_g",     "color_b",          "position_x",
+    "position_y",   "position_z",  "direction_x", "direction_y",      "direction_z",
+    "axis_u_x",     "axis_u_y",    "axis_u_z",    "axis_v_x",         "axis_v_y",
+    "axis_v_z",     "radius",      "angle",       "cos_outer",        "cos_inner",
+    "falloff_constant", "falloff_linear", "falloff_quadratic"};
+
+namespace {
+
+/// A sun's disc below this angular radius is a point.
+constexpr float kPointSun = 1e-4f;
+
+/// What of a row serves to make the light ready, and is not kept.
+struct LightRow {
+    Light light;
+    float angle;
+};
+
+LightRow read_light(TableRow& row) {
+    LightRow read{};
+    Light& light = read.light;
+    light.kind = static_cast<LightKind>(row.next_index(0, 5));
+    light.color = row.next_vector();
+    light.position = row.next_vector();
+    light.direction = row.next_vector();
+    light.axis_u = row.next_vector();
+    light.axis_v = row.next_vector();
+    light.radius = row.next(0.0f, 3.0e38f);
+    read.angle = row.next(0.0f, kPi);
+    light.cos_outer = row.next();
+    light.cos_inner = row.next();
+    for (float& coefficient : light.falloff) coefficient = row.next();
+    light.direction = normalize_safe(light.direction);
+    if (is_black(light.direction) && light.kind != LightKind::point)
+        row.fail("has no direction");
+    return read;
+}
+
+void prepare_sun(Light& light, float angle) {
+    light.extended = angle >= kPointSun;
+    if (!light.extended) return;
+    const float half = std::sin(0.5f * angle), sine = std::sin(angle);
+    light.chord2 = 4.0f * half * half;
+    light.solid_angle = kPi * light.chord2;
+    light.color = light.color / (kPi * sine * sine);
+}
+
+void prepare_point(Light& light) {
+    const float* f = light.falloff;
+    light.inverse_square = f[0] == 0.0f && f[1] == 0.0f && f[2] == 1.0f;
+    light.extended = light.inverse_square && light.radius > 0.0f;
+    if (light.extended) light.color = light.color / (kPi * light.radius * light.radius);
+}
+
+void prepare_area(Light& light) {
+    const float shape = light.kind == LightKind::ellipse ? kPi : 4.0f;
+    light.area = shape * length(cross(light.axis_u, light.axis_v));
+    light.extended = light.area > 0.0f;
+}
+
+}  // namespace
+
+void set_lights(ShadingTables& tables, const Table& table) {
+    check_columns(table, "lights", kLightFields);
+    std::vector<Light> lights;
+    for (int64_t at = 0; at < table.rows; ++at) {
+        TableRow row(table, "lights", kLightFields, at);
+        LightRow read = read_light(row);
+        switch (read.light.kind) {
+            case LightKind::sun: prepare_sun(read.light, read.angle); break;
+            case LightKind::point:
+            case LightKind::spot: prepare_point(read.light); break;
+            default: prepare_area(read.light);
+        }
+        if (!is_finite(read.light.color)) row.fail("has a colour too large for its extent");
+        lights.push_back(read.light);
+    }
+    tables.lights.swap(lights);
+}
+
+}  // namespace trg

@@ -1,0 +1,135 @@
+#include "scene/shading_tables.h"
+
+#include "scene/table_reader.h"
+#include "shade/fresnel.h"
+
+namespace trg {
+
+const std::vector<const char*> kMaterialFields = {
+    "base_r",       "base_g",     "base_b",       "metallic",          "roughness",
+    "ior",          "specular",   "transmission", "emission_r",        "emission_g",
+    "emission_b",   "base_texture", "roughness_texture", "metallic_texture", "emission_texture"};
+
+const std::vector<const char*> kTextureFields = {"image",    "scale_u",  "scale_v",
+                                                 "offset_u", "offset_v", "wrap"};
+
+namespace {
+
+/// Each other index's mean is found once: tables often repeat one IOR.
+class MeanFresnel {
+  public:
+    float of(float ior) {
+        if (ior != last_ior_) {
+            last_ior_ = ior;
+            last_ = mean_fresnel_dielectric(ior);
+        }
+        return last_;
+    }
+
+  private:
+    float last_ior_ = 0.0f, last_ = 0.0f;
+};
+
+Vec3 next_color(TableRow& row) {
+    const float r = row.next(0.0f, 3.0e38f), g = row.next(0.0f, 3.0e38f),
+                b = row.next(0.0f, 3.0e38f);
+    return {r, g, b};
+}
+
+Material read_material(TableRow row, int64_t texture_count, MeanFresnel& mean) {
+    Material m{};
+    m.base = next_color(row);
+    m.metallic = row.next_share();
+    m.roughness = row.next_share();
+    m.ior = row.next(1e-3f, 1e6f);
+    m.specular = row.next_share();
+    m.transmission = row.next_share();
+    m.emission = row.next_vector();
+    m.emission_weight = std::fabs(luminance(m.emission));
+    m.base_texture = row.next_index(-1, texture_count);
+    m.roughness_texture = row.next_index(-1, texture_count);
+    m.metallic_texture = row.next_index(-1, texture_count);
+    m.emission_texture = row.next_index(-1, texture_count);
+    m.mean_fresnel = mean.of(m.ior);
+    return m;
+}
+
+Texture read_texture(TableRow row, int64_t image_count) {
+    Texture texture{};
+    texture.image = row.next_index(0, image_count);
+    texture.scale_u = row.next();
+    texture.scale_v = row.next();
+    texture.offset_u = row.next();
+    texture.offset_v = row.next();
+    texture.wrap = static_cast<Wrap>(row.next_index(0, 2));
+    return texture;
+}
+
+}  // namespace
+
+void set_materials(ShadingTables& tables, const Table& table) {
+    check_columns(table, "materials", kMaterialFields);
+    std::vector<Material> materials;
+    MeanFresnel mean;
+    for (int64_t row = 0; row < table.rows; ++row)
+        materials.push_back(read_material({table, "materials", kMaterialFields, row},
+                                          static_cast<int64_t>(tables.textures.size()), mean));
+    tables.materials.swap(materials);
+}
+
+void set_textures(ShadingTables& tables, const Table& table) {
+    check_columns(table, "textures", kTextureFields);
+    std::vector<Texture> textures;
+    for (int64_t row = 0; row < table.rows; ++row)
+        textures.push_back(read_texture({table, "textures", kTextureFields, row},
+                                        static_cast<int64_t>(tables.images.size())));
+    tables.textures.swap(textures);
+}
+
+void set_background(ShadingTables& tables, float r, float g, float b) {
+    if (!is_finite(Vec3{r, g, b})) throw TableError("world: expected finite numbers");
+    tables.background = {r, g, b};
+}
+
+void set_camera(ShadingTables& tables, const CameraRequest& request) {
+    if (request.kind != 0 && request.kind != 1)
+        throw TableError("kind: " + std::to_string(request.kind) + ", expected 0 or 1");
+    for (int k = 0; k < 12; ++k)
+        if (!std::isfinite(request.matrix[k])) throw TableError("matrix: expected finite numbers");
+    for (int k = 0; k < 4; ++k)
+        if (!std::isfinite(request.window[k])) throw TableError("window: expected finite numbers");
+    if (!(request.clip_start >= 0.0 && request.clip_start < request.clip_end))
+        throw TableError("clip_start: expected 0 <= clip_start < clip_end");
+    const double* m = request.matrix;
+    CameraView& c = tables.camera;
+    c.perspective = request.kind == 0;
+    c.axis_x = to_float(Vec3d{m[0], m[4], m[8]});
+    c.axis_y = to_float(Vec3d{m[1], m[5], m[9]});
+    c.axis_z = to_float(Vec3d{m[2], m[6], m[10]});
+    c.origin = to_float(Vec3d{m[3], m[7], m[11]});
+    c.left = static_cast<float>(request.window[0]);
+    c.right = static_cast<float>(request.window[1]);
+    c.bottom = static_cast<float>(request.window[2]);
+    c.top = static_cast<float>(request.window[3]);
+    c.clip_start = static_cast<float>(request.clip_start);
+    c.clip_end = static_cast<float>(std::fmin(request.clip_end, 3.0e38));
+    tables.has_camera = true;
+}
+
+float srgb_to_linear(float encoded) {
+    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
+}
+
+int add_image(ShadingTables& tables, Image image) {
+    for (size_t k = 0; k < image.floats.size(); ++k) {
+        if (!std::isfinite(image.floats[k]))
+            throw TableError("pixels: row " +
+                             std::to_string(k / (static_cast<size_t>(image.width) * image.channels)) +
+                             " has a number that is not finite");
+        if (image.srgb) image.floats[k] = srgb_to_linear(image.floats[k]);
+    }
+    tables.images.push_back(std::move(image));
+    return static_cast<int>(tables.images.size()) - 1;
+}
+
+}  // namespace trg

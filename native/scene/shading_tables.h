@@ -1,0 +1,66 @@
+/// Materials, textures, images, lights and camera of a scene, taken from packed tables and checked.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "kernel/scene_view.h"
+
+namespace trg {
+
+/// A table with an impossible value; the message names argument, row and column.
+class TableError : public std::invalid_argument {
+    using std::invalid_argument::invalid_argument;
+};
+
+/// Columns of the packed tables, in order (trg_blender/engine/scene_arrays.py has the same).
+extern const std::vector<const char*> kMaterialFields, kLightFields, kTextureFields;
+
+/// A table of float32 rows as it came from Python.
+struct Table {
+    const float* data;
+    int64_t rows, columns;
+};
+
+/// Stored pixels; one of `bytes` and `floats` (linear) is filled.
+struct Image {
+    std::vector<uint8_t> bytes;
+    std::vector<float> floats;
+    bool srgb;
+    int32_t width, height, channels;
+};
+
+struct ShadingTables {
+    std::vector<Image> images;
+    std::vector<Texture> textures;
+    std::vector<Material> materials;
+    std::vector<Light> lights;
+    Vec3 background{0.0f, 0.0f, 0.0f};
+    CameraView camera{};
+    bool has_camera = false;
+};
+
+/// What the caller says about its camera; `matrix` is 3 x 4, camera to world.
+struct CameraRequest {
+    int kind;
+    const double* matrix;
+    const double* window;   // left, right, bottom, top
+    double clip_start, clip_end;
+};
+
+/// Each replaces its table. All throw TableError.
+void set_materials(ShadingTables& tables, const Table& table);
+void set_textures(ShadingTables& tables, const Table& table);
+void set_lights(ShadingTables& tables, const Table& table);
+void set_background(ShadingTables& tables, float r, float g, float b);
+void set_camera(ShadingTables& tables, const CameraRequest& request);
+
+/// Float pixels marked sRGB are made linear once; returns the image's index.
+int add_image(ShadingTables& tables, Image image);
+
+/// Value of an sRGB-encoded number in linear light (IEC 61966-2-1).
+float srgb_to_linear(float encoded);
+
+}  // namespace trg

@@ -1,0 +1,73 @@
+/// Small tools of shading: local frames, luminance, safe normalisation, simple distributions.
+#pragma once
+
+#include "base/vec3.h"
+
+namespace trg {
+
+constexpr float kPi = 3.14159265358979f;
+constexpr float kInvPi = 0.318309886183791f;
+
+/// Right-handed unit axes; `n` is the local z.
+struct Frame {
+    Vec3 s, t, n;
+};
+
+/// Axes around the unit vector `n` (Duff et al. 2017).
+TRG_FN Frame make_frame(Vec3 n) {
+    const float sign = std::copysign(1.0f, n.z);
+    const float a = -1.0f / (sign + n.z);
+    const float b = n.x * n.y * a;
+    return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x},
+            {b, sign + n.y * n.y * a, -n.y},
+            n};
+}
+
+TRG_FN Vec3 to_local(const Frame& f, Vec3 w) { return {dot(w, f.s), dot(w, f.t), dot(w, f.n)}; }
+TRG_FN Vec3 to_world(const Frame& f, Vec3 w) { return f.s * w.x + f.t * w.y + f.n * w.z; }
+
+/// Rec.709 luminance.
+TRG_FN float luminance(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
+TRG_FN float max_component(Vec3 c) { return std::fmax(c.x, std::fmax(c.y, c.z)); }
+TRG_FN Vec3 absolute(Vec3 a) { return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}; }
+TRG_FN bool is_black(Vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; }
+TRG_FN float clamp01(float x) { return x < 0.0f ? 0.0f : (x > 1.0f ? 1.0f : x); }
+
+/// `a` scaled to length 1 without overflow or underflow; the null vector when `a` is null or holds
+/// a number that is not finite.
+TRG_FN Vec3 normalize_safe(Vec3 a) {
+    const float size = max_component(absolute(a));
+    if (!(size > 0.0f) || !is_finite(a)) return {0.0f, 0.0f, 0.0f};
+    const Vec3 scaled{a.x / size, a.y / size, a.z / size};
+    return scaled / length(scaled);
+}
+
+/// A point of the unit disc, uniform by area (Shirley and Chiu 1997).
+TRG_FN void sample_disc(float u, float v, float* x, float* y) {
+    const float a = 2.0f * u - 1.0f, b = 2.0f * v - 1.0f;
+    if (a == 0.0f && b == 0.0f) {
+        *x = *y = 0.0f;
+        return;
+    }
+    const bool wide = std::fabs(a) > std::fabs(b);
+    const float r = wide ? a : b;
+    const float angle = wide ? 0.25f * kPi * (b / a) : 0.5f * kPi - 0.25f * kPi * (a / b);
+    *x = r * std::cos(angle);
+    *y = r * std::sin(angle);
+}
+
+/// A local direction with density cos / pi.
+TRG_FN Vec3 sample_cosine(float u, float v) {
+    float x, y;
+    sample_disc(u, v, &x, &y);
+    return {x, y, std::sqrt(std::fmax(0.0f, 1.0f - x * x - y * y))};
+}
+
+/// Share of the first of two sampling techniques by the power heuristic (Veach and Guibas 1995).
+TRG_FN float power_heuristic(float pdf, float other_pdf) {
+    if (!(pdf > 0.0f)) return 0.0f;
+    const float ratio = other_pdf / pdf;
+    return 1.0f / (1.0f + ratio * ratio);
+}
+
+}  // namespace trg

@@ -1,0 +1,192 @@
+/// Lights as kernels see them: how they are sampled from a point, and what a bounce ray sees of them.
+#pragma once
+
+#include "shade/frame.h"
+#include "shade/sampler.h"
+
+namespace trg {
+
+enum class LightKind : int32_t { sun, point, spot, rectangle, ellipse };
+
+/// One light. `color` is what the estimate needs: irradiance of a delta sun, radiance of anything
+/// with extent, intensity of a delta point, irradiance at distance 0 under a falloff.
+struct Light {
+    LightKind kind;
+    bool extended;          // seen by bounce rays; otherwise a delta
+    bool inverse_square;    // false: the falloff coefficients hold
+    Vec3 color;
+    Vec3 position;
+    Vec3 direction;         // sun: towards the light; others: along which it shines; unit
+    Vec3 axis_u, axis_v;    // half axes
+    float radius;
+    float area;             // rectangle, ellipse
+    float solid_angle;      // sun
+    float chord2;           // sun: squared chord from the centre of the disc to its rim
+    float cos_outer, cos_inner;
+    float falloff[3];
+};
+
+/// A direction towards a light. `light` is radiance over density (or, for a delta, irradiance on a
+/// surface facing it); pdf is by solid angle, 0 for a delta.
+struct LightSample {
+    Vec3 wi;
+    float distance;
+    Vec3 light;
+    float pdf;
+};
+
+constexpr float kFar = 3.0e38f;
+
+/// Share of a spot's intensity along `travel`, the unit direction of the light.
+TRG_FN float eval_spot(const Light& light, Vec3 travel) {
+    if (light.kind != LightKind::spot) return 1.0f;
+    const float above = dot(light.direction, travel) - light.cos_outer;
+    const float width = light.cos_inner - light.cos_outer;
+    if (!(width > 0.0f)) return above > 0.0f ? 1.0f : 0.0f;
+    const float t = clamp01(above / width);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+/// Half of the unit cone of squared chord `chord2` around `axis`, uniform by solid angle.
+TRG_FN Vec3 sample_cone(Vec3 axis, float chord2, Sample2 uv) {
+    const float drop = 0.5f * chord2 * uv.u;   // 1 - cos
+    const float sine = std::sqrt(std::fmax(0.0f, drop * (2.0f - drop)));
+    const float phi = 2.0f * kPi * uv.v;
+    return to_world(make_frame(axis),
+                    {sine * std::cos(phi), sine * std::sin(phi), 1.0f - drop});
+}
+
+TRG_FN bool sample_sun(const Light& light, Sample2 uv, LightSample* sample) {
+    sample->distance = kFar;
+    sample->wi = light.direction;
+    sample->light = light.color;
+    sample->pdf = 0.0f;
+    if (!light.extended) return true;
+    sample->wi = sample_cone(light.direction, light.chord2, uv);
+    sample->pdf = 1.0f / light.solid_angle;
+    sample->light = light.color * light.solid_angle;
+    return true;
+}
+
+TRG_FN float eval_falloff(const Light& light, float distance) {
+    if (light.inverse_square) return 1.0f / (distance * distance);
+    const float below = light.falloff[0] + distance * (light.falloff[1] + distance * light.falloff[2]);
+    return below > 1.0f ? 1.0f / below : 1.0f;
+}
+
+TRG_FN bool sample_delta_point(const Light& light, Vec3 p, LightSample* sample) {
+    const Vec3 to = light.position - p;
+    sample->distance = length(to);
+    if (!(sample->distance > 0.0f)) return false;
+    sample->wi = to / sample->distance;
+    sample->pdf = 0.0f;
+    sample->light =
+        light.color * (eval_falloff(light, sample->distance) * eval_spot(light, -sample->wi));
+    return true;
+}
+
+/// Squared chord of the cone that a sphere of `radius` fills at squared distance `d2` (> radius^2).
+TRG_FN float sphere_chord2(float radius, float d2) {
+    const float sine2 = radius * radius / d2;
+    return 2.0f * sine2 / (1.0f + std::sqrt(std::fmax(0.0f, 1.0f - sine2)));
+}
+
+/// Distance along unit `wi` from `p` to the near side of the sphere, if it is ahead.
+TRG_FN bool intersect_sphere_light(const Light& light, Vec3 p, Vec3 wi, float* distance) {
+    const Vec3 to = light.position - p;
+    const float along = dot(to, wi);
+    const Vec3 miss = to - wi * along;
+    const float h2 = light.radius * light.radius - dot(miss, miss);
+    if (!(h2 >= 0.0f) || !(dot(to, to) > light.radius * light.radius)) return false;
+    *distance = along - std::sqrt(h2);
+    return *distance > 0.0f;
+}
+
+TRG_FN bool sample_sphere(const Light& light, Vec3 p, Sample2 uv, LightSample* sample) {
+    const Vec3 to = light.position - p;
+    const float d2 = dot(to, to);
+    if (!(d2 > light.radius * light.radius)) return false;
+    const float chord2 = sphere_chord2(light.radius, d2);
+    sample->wi = sample_cone(to / std::sqrt(d2), chord2, uv);
+    if (!intersect_sphere_light(light, p, sample->wi, &sample->distance)) {
+        // Rounding at the rim: the tangent point stands in.
+        sample->distance = std::sqrt(std::fmax(0.0f, d2 - light.radius * light.radius));
+    }
+    const float solid_angle = kPi * chord2;
+    sample->pdf = 1.0f / solid_angle;
+    sample->light = light.color * (solid_angle * eval_spot(light, -sample->wi));
+    return true;
+}
+
+TRG_FN bool sample_area(const Light& light, Vec3 p, Sample2 uv, LightSample* sample) {
+    float a = 2.0f * uv.u - 1.0f, b = 2.0f * uv.v - 1.0f;
+    if (light.kind == LightKind::ellipse) sample_disc(uv.u, uv.v, &a, &b);
+    const Vec3 to = light.position + light.axis_u * a + light.axis_v * b - p;
+    const float d2 = dot(to, to);
+    if (!(d2 > 0.0f)) return false;
+    sample->distance = std::sqrt(d2);
+    sample->wi = to / sample->distance;
+    const float cosine = -dot(sample->wi, light.direction);
+    if (!(cosine > 0.0f)) return false;
+    sample->pdf = d2 / (cosine * light.area);
+    sample->light = light.color * (1.0f / sample->pdf);
+    return true;
+}
+
+/// Draws a direction from `p` to `light`; false when nothing arrives.
+TRG_FN bool sample_light(const Light& light, Vec3 p, Sample2 uv, LightSample* sample) {
+    switch (light.kind) {
+        case LightKind::sun: return sample_sun(light, uv, sample);
+        case LightKind::point:
+        case LightKind::spot:
+            return light.extended ? sample_sphere(light, p, uv, sample)
+                                  : sample_delta_point(light, p, sample);
+        default: return sample_area(light, p, uv, sample);
+    }
+}
+
+/// What a ray from `p` along unit `wi`, ending at `t_max`, sees of a light with extent.
+struct LightHit {
+    Vec3 radiance;
+    float pdf;   // of sample_light for this direction
+};
+
+TRG_FN bool intersect_area_light(const Light& light, Vec3 p, Vec3 wi, float t_max, LightHit* hit) {
+    const float cosine = -dot(wi, light.direction);
+    if (!(cosine > 0.0f)) return false;
+    const float t = dot(p - light.position, light.direction) / cosine;
+    if (!(t > 0.0f && t < t_max)) return false;
+    const Vec3 at = p + wi * t - light.position;
+    const float uu = dot(light.axis_u, light.axis_u), vv = dot(light.axis_v, light.axis_v);
+    const float uvd = dot(light.axis_u, light.axis_v);
+    const float det = uu * vv - uvd * uvd;
+    const float pu = dot(at, light.axis_u), pv = dot(at, light.axis_v);
+    const float a = (pu * vv - pv * uvd) / det, b = (pv * uu - pu * uvd) / det;
+    const bool inside = light.kind == LightKind::ellipse
+                            ? a * a + b * b <= 1.0f
+                            : std::fabs(a) <= 1.0f && std::fabs(b) <= 1.0f;
+    if (!inside) return false;
+    hit->radiance = light.color;
+    hit->pdf = t * t / (cosine * light.area);
+    return true;
+}
+
+TRG_FN bool intersect_light(const Light& light, Vec3 p, Vec3 wi, float t_max, LightHit* hit) {
+    if (light.kind == LightKind::sun) {
+        const Vec3 off = wi - light.direction;
+        if (t_max < kFar || dot(off, off) > light.chord2) return false;
+        hit->radiance = light.color;
+        hit->pdf = 1.0f / light.solid_angle;
+        return true;
+    }
+    if (light.kind == LightKind::rectangle || light.kind == LightKind::ellipse)
+        return intersect_area_light(light, p, wi, t_max, hit);
+    float t;
+    if (!intersect_sphere_light(light, p, wi, &t) || !(t < t_max)) return false;
+    const Vec3 to = light.position - p;
+    hit->radiance = light.color * eval_spot(light, -wi);
+    hit->pdf = 1.0f / (kPi * sphere_chord2(light.radius, dot(to, to)));
+    return true;
+}
+
+}  // namespace trg
