@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import re
 import tomllib
 
@@ -11,9 +12,9 @@ import trg_blender
 from trg_blender.engine import scene_arrays
 from trg_blender.lang import scene
 
-from .tree import read
+from .tree import read, syntax_tree
 
-SHAPE_KINDS = ("sphere", "box", "plane", "tor", "conus", "cylinder", "fence", "triangle", "model")
+MIRROR = "trg_blender/engine/to_blender"
 LEGS = ("3.11", "3.13")
 
 
@@ -51,9 +52,40 @@ def test_every_declared_dependency_is_pinned_for_the_legs():
         assert wanted <= pinned, f"Python {leg} lacks {wanted - pinned}"
 
 
-def test_the_records_and_their_description_name_the_same_kinds_of_shape():
-    described = re.findall(r"(\w+) \([\w, ]+\)", scene.ShapeRecord.__doc__ or "")
-    assert described == list(SHAPE_KINDS)
+def value_of(name: str, file: str) -> ast.expr:
+    """The expression that `file` assigns to the module variable `name`, read without importing bpy."""
+    for node in syntax_tree(file).body:
+        targets = node.targets if isinstance(node, ast.Assign) else [getattr(node, "target", None)]
+        if any(isinstance(target, ast.Name) and target.id == name for target in targets):
+            return node.value
+    raise AssertionError(f"{file} assigns no {name}")
+
+
+def keys_of(name: str, file: str) -> list[str]:
+    return [ast.literal_eval(key) for key in value_of(name, file).keys]
+
+
+def described_shapes() -> dict[str, list[str]]:
+    """Kind -> parameter names, as ShapeRecord describes them."""
+    found = re.findall(r"(\w+) \(([\w, ]+)\)", scene.ShapeRecord.__doc__ or "")
+    return {kind: [word for word in names.split(", ") if word] for kind, names in found if kind != "model"}
+
+
+def test_shapes_are_checked_by_the_parameters_that_their_record_describes():
+    table = ast.literal_eval(value_of("SHAPE_PARAMETERS", f"{MIRROR}/validate.py"))
+    checked = {kind: [name for name, _ in parameters] for kind, parameters in table.items()}
+    assert checked == {**described_shapes(), "model": ["file"]}
+
+
+def test_every_described_shape_has_a_place_in_blender():
+    assert keys_of("PLACERS", f"{MIRROR}/placement.py") == list(described_shapes())
+
+
+def test_every_described_light_is_checked_and_has_a_blender_type():
+    (described,) = re.findall(r"`kind`: ([\w |]+)\.", scene.LightRecord.__doc__ or "")
+    kinds = described.split(" | ")
+    assert list(ast.literal_eval(value_of("LIGHT_KINDS", f"{MIRROR}/validate.py"))) == kinds
+    assert keys_of("BLENDER_TYPES", f"{MIRROR}/lights.py") == kinds
 
 
 def test_the_tour_shows_the_first_example_as_it_is():
