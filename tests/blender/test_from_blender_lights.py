@@ -40,14 +40,23 @@ CASES = {
     "point_sphere": Case("POINT", 60.0, {"shadow_soft_size": 0.3, "use_soft_falloff": False}, offset=0.3),
     "spot": Case("SPOT", 200.0, {"shadow_soft_size": 0.0, "spot_size": 1.2, "spot_blend": 0.5}),
     "spot_rim": Case(
-        "SPOT", 200.0, {"shadow_soft_size": 0.0, "spot_size": 1.2, "spot_blend": 0.7}, rotation=(0.4, 0.0, 0.0)
+        "SPOT",
+        200.0,
+        {"shadow_soft_size": 0.0, "spot_size": 1.2, "spot_blend": 0.7},
+        rotation=(0.4, 0.0, 0.0),
     ),
     "square": Case("AREA", 50.0, {"shape": "SQUARE", "size": 0.8}),
     "rectangle": Case(
-        "AREA", 50.0, {"shape": "RECTANGLE", "size": 1.5, "size_y": 0.4}, rotation=(0.5, 0.0, 0.0), offset=0.3
+        "AREA",
+        50.0,
+        {"shape": "RECTANGLE", "size": 1.5, "size_y": 0.4},
+        rotation=(0.5, 0.0, 0.0),
+        offset=0.3,
     ),
     "disk": Case("AREA", 20.0, {"shape": "DISK", "size": 0.6}, offset=0.4),
-    "ellipse_scaled": Case("AREA", 20.0, {"shape": "ELLIPSE", "size": 0.6, "size_y": 1.0}, scale=(2.0, 0.5, 1.0)),
+    "ellipse_scaled": Case(
+        "AREA", 20.0, {"shape": "ELLIPSE", "size": 0.6, "size_y": 1.0}, scale=(2.0, 0.5, 1.0)
+    ),
 }
 
 

@@ -78,7 +78,7 @@ def _add_mesh(
     if group is None:
         group = groups[key] = MeshGroup(mesh, materials, owner.name)
         if owner.is_holdout or owner.is_shadow_catcher:
-            warnings.append(f"object {owner.name!r}: a holdout or shadow catcher is rendered as a plain surface")
+            warnings.append(f"object {owner.name!r}: rendered as a plain surface, without holdout")
         if not owner.visible_camera:
             warnings.append(f"object {owner.name!r}: visibility by kind of ray is not supported")
     group.rows.append(row)

@@ -1,0 +1,5 @@
+"""The Blender extension: Blender calls `register` and `unregister`."""
+
+from .trg_blender.ui.registration import register, unregister
+
+__all__ = ["register", "unregister"]

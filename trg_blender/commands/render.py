@@ -1,0 +1,268 @@
+"""`trg render`: a TRG program or a .blend file to pictures, with Blender as a Python module.
+
+The program runs through the same handlers, and the picture through the same engine and the same saving,
+as in `blender -b FILE -E TRG -f N`: the pixels are the same.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import importlib.util
+import re
+import sys
+import time
+from dataclasses import dataclass, field
+from pathlib import Path
+from types import ModuleType
+from typing import Any, TextIO
+
+from .. import cli
+from ..engine.devices import DEVICE_NAMES, INTEGRATORS, NATIVE_ACCELERATORS, Unavailable, require_device
+from .render_output import ProgressPrinter, blender_chatter_off, describe_report, frame_path, write_report
+
+SOURCES, PICTURES = (".trg", ".blend"), (".png", ".exr")
+EXIT_CODES = {
+    "scene": cli.WRONG,
+    "internal": cli.WRONG,
+    "budget": cli.CANCELLED,
+    "cancelled": cli.CANCELLED,
+    "unavailable": cli.UNAVAILABLE,
+}
+
+
+class RenderFailed(Exception):
+    """A frame gave no picture; `code` is the command's exit code."""
+
+    def __init__(self, message: str, code: int) -> None:
+        super().__init__(message)
+        self.code = code
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = subparsers.add_parser(
+        "render",
+        help=cli.COMMANDS["render"],
+        description="Renders frames of a TRG program or a .blend file. EXR holds scene-linear float32, with "
+        "depth and normal as layers; PNG is 8 bit through the scene's view transform.",
+    )
+    add = parser.add_argument
+    add("file", type=_path_with(SOURCES), help="FILE.trg or FILE.blend")
+    add("-o", "--output", type=_path_with(PICTURES), metavar="OUT", help="picture (.png or .exr); FILE.png")
+    which = parser.add_mutually_exclusive_group()
+    which.add_argument("--frame", type=int, metavar="N", help="frame to render")
+    which.add_argument("--frames", type=_frame_range, metavar="A-B", help="frames to render; numbered files")
+    add("--size", type=_size, metavar="WxH", help="picture size; else the program's or the file's")
+    add("--device", choices=("auto", *DEVICE_NAMES), help="what traces the rays")
+    add("--accel", choices=NATIVE_ACCELERATORS, help="structure that finds the nearest surface")
+    add("--integrator", choices=INTEGRATORS, help="how light is gathered")
+    add("--samples", type=_at_least(1), metavar="N", help="light paths for each pixel")
+    add("--seed", type=_at_least(0), metavar="N", help="changes the noise")
+    add("--threads", type=_at_least(0), metavar="N", help="0: all cores")
+    add("--engine", choices=("TRG", "CYCLES"), default="TRG", help="engine that renders the scene")
+    add("--report", type=Path, metavar="FILE", help="write the report as JSON; several frames give a list")
+    add("--quiet", action="store_true", help="no progress and no closing paragraph")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Renders what `args` ask for. Raises Unavailable without bpy or the asked device."""
+    if not args.file.is_file():
+        raise FileNotFoundError(f"there is no file {args.file}")
+    bpy = load_bpy()
+    if args.engine == "TRG" and args.device not in (None, "auto"):
+        require_device(args.device)
+    with blender_chatter_off() as out:
+        job = RenderCommand(bpy, args, out)
+        try:
+            job.open()
+            for frame in job.frames():
+                job.render(frame)
+        except RenderFailed as failure:
+            return cli.fail(str(failure), failure.code)
+        finally:
+            job.close()
+        if args.report is not None:
+            write_report(args.report, job.reports)
+    return cli.DONE
+
+
+def load_bpy() -> ModuleType:
+    """Blender as a module. Raises Unavailable with the way to get it."""
+    try:
+        return importlib.import_module("bpy")
+    except ImportError as failure:
+        version = f"{sys.version_info.major}.{sys.version_info.minor}"
+        raise Unavailable(
+            f"Blender's module bpy cannot be loaded in Python {version} ({failure}); "
+            "pip install bpy==4.5.15 (Python 3.11) or bpy==5.2.3 (Python 3.13)"
+        ) from failure
+
+
+@dataclass(slots=True)
+class RenderCommand:
+    """One run of the command inside one Blender."""
+
+    bpy: ModuleType
+    args: argparse.Namespace
+    out: TextIO
+    reports: list[dict[str, Any]] = field(default_factory=list)
+    _registered_here: bool = False
+
+    def open(self) -> None:
+        """Loads the scene or the program, and applies the options."""
+        bpy, args = self.bpy, self.args
+        if not hasattr(bpy.types.Scene, "trg"):
+            self._registration().register()
+            self._registered_here = True
+        path = str(args.file.resolve())
+        if args.file.suffix.lower() == ".blend":
+            try:
+                bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
+            except RuntimeError as error:
+                raise RenderFailed(f"{args.file}: {_operator_message(error)}", cli.WRONG) from error
+        else:
+            bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
+            bpy.context.scene.trg.program = bpy.data.texts.load(path)
+        apply_options(bpy, bpy.context.scene, args)
+
+    def close(self) -> None:
+        """Leaves Blender as it was found."""
+        if self._registered_here:
+            self._registration().unregister()
+
+    def frames(self) -> range:
+        """Frames to render: those asked for, else a program's first, else a file's current one."""
+        if self.args.frames is not None:
+            return self.args.frames
+        frame = self.args.frame
+        if frame is None:
+            frame = 1 if self.args.file.suffix.lower() == ".trg" else self.bpy.context.scene.frame_current
+        return range(frame, frame + 1)
+
+    def render(self, frame: int) -> None:
+        """One frame to one file. Raises RenderFailed; then no file was written."""
+        from ..engine.result import records
+
+        output = self.args.output or Path(self.args.file.stem + ".png")
+        picture = frame_path(output, frame, self.args.frames is not None).resolve()
+        picture.parent.mkdir(parents=True, exist_ok=True)
+        scene = self.bpy.context.scene
+        scene.frame_set(frame)
+        scene.render.filepath = str(picture)
+        progress = ProgressPrinter(sys.stderr, f"frame {frame}", self.args.quiet)
+        records.watcher = progress
+        begin = time.perf_counter()
+        try:
+            self.bpy.ops.render.render(write_still=True)
+        except RuntimeError as error:
+            failure = records.failure_of(scene.name)
+            if failure is None:
+                raise RenderFailed(_operator_message(error), cli.WRONG) from error
+            raise RenderFailed(failure.message, EXIT_CODES[failure.kind]) from error
+        finally:
+            progress.close()
+            records.watcher = None
+        self._finish(picture, frame, time.perf_counter() - begin)
+
+    def _finish(self, picture: Path, frame: int, seconds: float) -> None:
+        from ..engine.result import records
+
+        scene = self.bpy.context.scene
+        report = records.report_of(scene.name)
+        if report is None:
+            size = [scene.render.resolution_x, scene.render.resolution_y]
+            report = {"file": None, "frame": frame, "size": size, "engine": scene.render.engine}
+            report["seconds"] = {"total": seconds}
+        report = {**report, "file": str(self.args.file)}
+        self.reports.append(report)
+        if self.args.quiet:
+            return
+        if "error" in report:
+            self.out.write(describe_report(picture, report) + "\n")
+        else:
+            self.out.write(f"{picture}: {scene.render.engine}, {seconds:.2f} s\n")
+        self.out.flush()
+
+    def _registration(self) -> ModuleType:
+        return importlib.import_module("..ui.registration", __package__)
+
+
+def apply_options(bpy: ModuleType, scene: Any, args: argparse.Namespace) -> None:
+    """Options of the command line over the settings of the scene."""
+    if args.engine == "CYCLES":
+        importlib.import_module("addon_utils").enable("cycles")
+        for name, value in (("samples", args.samples), ("seed", args.seed)):
+            if value is not None:
+                setattr(scene.cycles, name, value)
+    scene.render.engine = args.engine
+    for name in ("device", "accel", "integrator", "samples", "seed"):
+        value = getattr(args, name)
+        if value is not None:
+            setattr(scene.trg, name, value)
+    if args.threads:
+        scene.render.threads_mode, scene.render.threads = "FIXED", args.threads
+    elif args.threads == 0:
+        scene.render.threads_mode = "AUTO"
+    if args.size is not None:
+        scene["trg_keep_size"] = True
+        scene.render.resolution_x, scene.render.resolution_y = args.size
+        scene.render.resolution_percentage = 100
+    choose_format(scene, args)
+
+
+def choose_format(scene: Any, args: argparse.Namespace) -> None:
+    """PNG of 8 bit, or EXR of 32: with layers when passes are rendered, as they always are for a program."""
+    image = scene.render.image_settings
+    if args.output is None or args.output.suffix.lower() == ".png":
+        _set_media_type(image, "IMAGE")
+        image.file_format, image.color_depth = "PNG", "8"
+        return
+    if args.file.suffix.lower() == ".trg":
+        for layer in scene.view_layers:
+            layer.use_pass_z = layer.use_pass_normal = True
+    layered = any(layer.use_pass_z or layer.use_pass_normal for layer in scene.view_layers)
+    _set_media_type(image, "MULTI_LAYER_IMAGE" if layered else "IMAGE")
+    image.file_format = "OPEN_EXR_MULTILAYER" if layered else "OPEN_EXR"
+    image.color_depth = "32"
+
+
+def _set_media_type(image: Any, kind: str) -> None:
+    """Blender 5 wants the kind of file before its format; Blender 4 has no such setting."""
+    if hasattr(image, "media_type"):
+        image.media_type = kind
+
+
+def _operator_message(error: RuntimeError) -> str:
+    return str(error).strip().removeprefix("Error: ").strip()
+
+
+def _path_with(suffixes: tuple[str, ...]) -> Any:
+    def path(text: str) -> Path:
+        if Path(text).suffix.lower() not in suffixes:
+            raise argparse.ArgumentTypeError(f"{text!r} does not end in {' or '.join(suffixes)}")
+        return Path(text)
+
+    return path
+
+
+def _frame_range(text: str) -> range:
+    match = re.fullmatch(r"(-?\d+)-(-?\d+)", text)
+    if match is None or int(match[2]) < int(match[1]):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a range of frames such as 1-24")
+    return range(int(match[1]), int(match[2]) + 1)
+
+
+def _size(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d+)[xX](\d+)", text)
+    if match is None or not int(match[1]) or not int(match[2]):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a size such as 640x480")
+    return int(match[1]), int(match[2])
+
+
+def _at_least(lowest: int) -> Any:
+    def number(text: str) -> int:
+        if not text.isdigit() or int(text) < lowest:
+            raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least {lowest}")
+        return int(text)
+
+    return number

@@ -1,0 +1,226 @@
+"""The engine class that Blender calls: sync in update(), tracing in render(), nothing else.
+
+Blender runs these callbacks on the main thread without a window and in a job thread with one. An
+exception that left them would be saved as a black picture, so each works inside `reported_errors`.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import logging
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+import bpy
+
+from . import run_text, session
+from .devices import Unavailable, find_device
+from .errors import SceneError
+from .from_blender import SceneReader
+from .pace import Pace
+from .report import Progress, format_progress, with_source
+from .result import Failure, border_of, records, register_passes, wanted_passes, write_pixels
+from .scene_arrays import RenderSettings, SceneArrays
+
+ENGINE_ID = "TRG"
+POLL_SECONDS = 0.03
+
+_log = logging.getLogger(__name__)
+
+
+class RenderCancelled(Exception):
+    """The user stopped the render."""
+
+
+class ProgramFailed(Exception):
+    """The scene's program ended in an error before this frame."""
+
+    def __init__(self, failure: Failure) -> None:
+        super().__init__(failure.message)
+        self.failure = failure
+
+
+@dataclass(slots=True)
+class Frame:
+    """What update() hands to render(): copies, so that the depsgraph is not touched while tracing."""
+
+    scene_name: str
+    arrays: SceneArrays
+    settings: RenderSettings
+    number: int
+    file: str
+    """the .blend file; empty while it was never saved"""
+    seconds: dict[str, float]
+
+
+@contextlib.contextmanager
+def reported_errors(engine: TRGRenderEngine, doing: str) -> Iterator[None]:
+    """The border between Blender and us: whatever goes wrong inside becomes one line of report({'ERROR'}).
+
+    A context manager, not a decorator: Blender counts the arguments of the callbacks themselves.
+    """
+    try:
+        yield
+    except RenderCancelled:
+        engine.refuse(Failure("cancelled", "the render was cancelled"))
+    except SceneError as error:
+        engine.refuse(Failure("scene", str(error)))
+    except Unavailable as error:
+        engine.refuse(Failure("unavailable", str(error)))
+    except ProgramFailed as error:
+        engine.refuse(error.failure)
+    except Exception as error:  # noqa: BLE001 - the border of every callback
+        _log.debug("while %s", doing, exc_info=True)
+        engine.refuse(Failure("internal", f"internal error while {doing}: {type(error).__name__}: {error}"))
+
+
+class TRGRenderEngine(bpy.types.RenderEngine):
+    """Final renders by TRG; the viewport keeps EEVEE."""
+
+    bl_idname = ENGINE_ID
+    bl_label = "TRG"
+    bl_use_preview = False
+    bl_use_eevee_viewport = True
+    bl_use_shading_nodes_custom = False
+    bl_use_gpu_context = False
+
+    frame: Frame | None = None
+    scene_name: str = ""
+
+    def refuse(self, failure: Failure) -> None:
+        """No picture: report() stops the render and the file; error_set() shows it in the image editor."""
+        self.frame = None
+        records.keep_failure(self.scene_name, failure)
+        self.report({"ERROR"}, failure.message)
+        if not bpy.app.background:
+            self.error_set(failure.message)
+
+    def update_render_passes(self, scene: bpy.types.Scene, layer: bpy.types.ViewLayer) -> None:
+        """Called by Blender whenever passes may have changed."""
+        with reported_errors(self, "listing passes"):
+            register_passes(self, scene, layer)
+
+    def update(self, data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> None:
+        """Called by Blender before each render(): copies what is to be rendered out of Blender."""
+        self.frame = None
+        self.scene_name = depsgraph.scene.name
+        records.forget(self.scene_name)
+        with reported_errors(self, "reading the scene"):
+            self.frame = self._read(data, depsgraph)
+
+    def render(self, depsgraph: bpy.types.Depsgraph) -> None:
+        """Called by Blender for each view layer: traces what update() copied."""
+        frame, self.frame = self.frame, None
+        if frame is None:
+            return
+        with reported_errors(self, "rendering"):
+            self._render(frame, depsgraph)
+
+    def _read(self, data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> Frame:
+        scene = depsgraph.scene_eval
+        pending = run_text.take_pending_error()
+        if pending is not None:
+            raise ProgramFailed(Failure("scene", str(pending)))
+        begin = time.perf_counter()
+        self.update_stats("TRG", "reading the scene")
+        size = (self.resolution_x, self.resolution_y)
+        arrays = SceneReader().read(scene, depsgraph, size)
+        settings = settings_of(scene, depsgraph.view_layer, size)
+        for warning in arrays.warnings:
+            self.report({"WARNING"}, warning)
+        seconds = {"sync": time.perf_counter() - begin}
+        return Frame(self.scene_name, arrays, settings, scene.frame_current, data.filepath, seconds)
+
+    def _render(self, frame: Frame, depsgraph: bpy.types.Depsgraph) -> None:
+        """Fills the result of one view layer; Blender may ask for a part of the picture only."""
+        size = (frame.settings.width, frame.settings.height)
+        result = self.begin_result(0, 0, *size, layer=depsgraph.view_layer.name)
+        if result is None:
+            return
+        cancelled = True
+        try:
+            part = (result.resolution_x, result.resolution_y)
+            border = border_of(depsgraph.scene, size, part)
+            frame.settings = replace(frame.settings, border=border)
+            cancelled = self._trace(frame, result)
+        finally:
+            self.end_result(result, cancel=cancelled, do_merge_results=True)
+
+    def _trace(self, frame: Frame, result: bpy.types.RenderResult) -> bool:
+        """Runs the job to its end; True when the user cancelled it (what is there is kept)."""
+        self.update_stats("TRG", "building the accelerator")
+        job = session.start(frame.arrays, frame.settings)
+        interrupted = False
+        try:
+            self._follow(job, result)
+        except KeyboardInterrupt:  # Blender as a module hands ^C to whatever Python code runs
+            interrupted = True
+            job.cancel()
+        outcome = job.result()
+        write_pixels(result, outcome.pixels, outcome.passes)
+        report = with_source(outcome.report, frame.file, frame.number, frame.seconds)
+        records.keep_report(frame.scene_name, report)
+        if interrupted:
+            raise RenderCancelled
+        return self.test_break()
+
+    def _follow(self, job: session.RenderJob, result: bpy.types.RenderResult) -> None:
+        """Polls until the job is done; shows progress and, with a window, the picture so far."""
+        pace = Pace(bpy.app.background)
+        while not (progress := job.poll(POLL_SECONDS)).done:
+            if self.test_break():
+                job.cancel()
+            if pace.wants_line():
+                self._say(progress)
+            if pace.wants_picture():
+                begin = time.perf_counter()
+                write_pixels(result, job.picture(), {})
+                self.update_result(result)
+                pace.picture_took(time.perf_counter() - begin)
+        self._say(progress)
+
+    def _say(self, progress: Progress) -> None:
+        self.update_progress(min(progress.samples / max(progress.target, 1), 1.0))
+        self.update_stats("TRG", format_progress(progress))
+        if records.watcher is not None:
+            records.watcher(progress)
+
+
+def settings_of(
+    scene: bpy.types.Scene, layer: bpy.types.ViewLayer, size: tuple[int, int]
+) -> RenderSettings:
+    """Render settings from `scene.trg` and Blender's own."""
+    own = scene.trg
+    return RenderSettings(
+        width=size[0],
+        height=size[1],
+        samples=own.samples,
+        seed=own.seed,
+        max_bounces=own.max_bounces,
+        threads=scene.render.threads if scene.render.threads_mode == "FIXED" else 0,
+        device=resolve_device(own.device),
+        accel=own.accel,
+        integrator=own.integrator,
+        passes=wanted_passes(layer),
+    )
+
+
+def resolve_device(name: str) -> str:
+    """`auto` is the native core, or the reference where the core is missing and Embree is not."""
+    if name != "auto":
+        return name
+    return "cpu" if find_device("cpu").available or not find_device("embree").available else "embree"
+
+
+CLASSES = (TRGRenderEngine,)
+
+
+def register() -> None:
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister() -> None:
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

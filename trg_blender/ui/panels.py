@@ -1,0 +1,127 @@
+"""Render panels of TRG, and the standard panels that TRG lets Blender show."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+import bpy
+
+from ..engine.render_engine import ENGINE_ID
+from ..engine.result import records
+
+ADOPTED_BY_NAME = {
+    "MATERIAL_PT_preview",
+    "EEVEE_MATERIAL_PT_context_material",
+    "EEVEE_MATERIAL_PT_surface",
+    "DATA_PT_EEVEE_light",
+    "EEVEE_WORLD_PT_surface",
+    "WORLD_PT_context_world",
+}
+"""Panels that Blender writes for EEVEE and that fit TRG; the ones for every engine say BLENDER_RENDER."""
+
+
+class _RenderPanel:
+    bl_space_type = "PROPERTIES"
+    bl_region_type = "WINDOW"
+    bl_context = "render"
+    COMPAT_ENGINES = {ENGINE_ID}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return bool(context.engine in cls.COMPAT_ENGINES)
+
+
+class TRG_RENDER_PT_program(_RenderPanel, bpy.types.Panel):
+    """Which program builds the scene."""
+
+    bl_label = "TRG Program"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        self.layout.template_ID(context.scene.trg, "program", new="text.new", open="text.open")
+
+
+class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):
+    """Samples, bounces and what traces them."""
+
+    bl_label = "Sampling"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout = self.layout
+        layout.use_property_split, layout.use_property_decorate = True, False
+        for name in ("samples", "max_bounces", "seed", "device", "accel", "integrator"):
+            layout.prop(context.scene.trg, name)
+        column = layout.column()
+        column.prop(context.scene.render, "threads_mode")
+        row = column.row()
+        row.enabled = context.scene.render.threads_mode == "FIXED"
+        row.prop(context.scene.render, "threads")
+        layout.prop(context.scene.render, "film_transparent", text="Transparent Film")
+
+
+class TRG_RENDER_PT_report(_RenderPanel, bpy.types.Panel):
+    """Error and time of the last render."""
+
+    bl_label = "Last Report"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return super().poll(context) and records.report_of(context.scene.name) is not None
+
+    def draw(self, context: bpy.types.Context) -> None:
+        report = records.report_of(context.scene.name)
+        for line in report_lines(report):
+            self.layout.label(text=line)
+        for warning in report["warnings"]:
+            self.layout.label(text=warning, icon="ERROR")
+
+
+class TRG_VIEWLAYER_PT_passes(_RenderPanel, bpy.types.Panel):
+    """Passes besides Combined."""
+
+    bl_label = "Passes"
+    bl_context = "view_layer"
+
+    def draw(self, context: bpy.types.Context) -> None:
+        column = self.layout.column()
+        column.prop(context.view_layer, "use_pass_z", text="Depth")
+        column.prop(context.view_layer, "use_pass_normal", text="Normal")
+
+
+def report_lines(report: dict[str, Any]) -> list[str]:
+    """The figures of a report that an artist asks for first."""
+    error, seconds = report["error"], report["seconds"]
+    lines = [f"{report['samples']:g} samples in {seconds['total']:.2f} s"]
+    if error.get("rmse") is not None:
+        low, high = error["ci95"]
+        lines.append(f"RMSE {error['rmse']:.4g} (95 %: {low:.4g} to {high:.4g})")
+    return lines
+
+
+def _adopted() -> Iterator[type]:
+    """Panels of Blender that TRG shows."""
+    for panel in bpy.types.Panel.__subclasses__():
+        engines = getattr(panel, "COMPAT_ENGINES", None)
+        if engines is None or panel.__module__ == __name__:
+            continue
+        if "BLENDER_RENDER" in engines or panel.__name__ in ADOPTED_BY_NAME:
+            yield panel
+
+
+CLASSES = (TRG_RENDER_PT_program, TRG_RENDER_PT_sampling, TRG_RENDER_PT_report, TRG_VIEWLAYER_PT_passes)
+
+
+def register() -> None:
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+    for panel in _adopted():
+        panel.COMPAT_ENGINES.add(ENGINE_ID)
+
+
+def unregister() -> None:
+    for panel in bpy.types.Panel.__subclasses__():
+        engines = getattr(panel, "COMPAT_ENGINES", None)
+        if engines is not None and panel.__module__ != __name__:
+            engines.discard(ENGINE_ID)
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

@@ -1,0 +1,65 @@
+"""Settings of a scene: `scene.trg`."""
+
+from __future__ import annotations
+
+import bpy
+
+DEVICES = (
+    ("auto", "Auto", "The fastest device of this machine"),
+    ("cpu", "CPU", "The native renderer on all processor cores"),
+    ("embree", "Embree Reference", "The slow reference renderer in Python, to check the native one against"),
+)
+ACCELERATORS = (
+    ("auto", "Auto", "Chosen by estimated cost"),
+    ("bvh", "BVH", "Bounding volume hierarchy built by the surface area heuristic"),
+    ("grid", "Grid", "Regular grid walked by 3D-DDA"),
+    ("none", "None", "Every ray against every triangle: for tiny scenes and tests"),
+)
+INTEGRATORS = (("path", "Path Tracing", "Unidirectional, with light sampling and Russian roulette"),)
+
+
+class TRGSceneSettings(bpy.types.PropertyGroup):
+    """How TRG renders a scene."""
+
+    program: bpy.props.PointerProperty(  # type: ignore[valid-type]
+        name="Program",
+        description="Text that builds the scene before each frame; without one the scene renders as it is",
+        type=bpy.types.Text,
+    )
+    samples: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Samples", description="Light paths traced for each pixel", default=64, min=1, soft_max=4096
+    )
+    seed: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Seed", description="Changes the noise; equal seeds give equal pictures", default=0, min=0
+    )
+    max_bounces: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Max Bounces",
+        description="Times that light may scatter after the first surface; 0 is direct light only",
+        default=12,
+        min=0,
+        max=1024,
+    )
+    device: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Device", description="What traces the rays", items=DEVICES, default="auto"
+    )
+    accel: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Accelerator", description="Structure that finds the nearest surface", items=ACCELERATORS
+    )
+    integrator: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Integrator", description="How light is gathered", items=INTEGRATORS
+    )
+
+
+CLASSES = (TRGSceneSettings,)
+
+
+def register() -> None:
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+    bpy.types.Scene.trg = bpy.props.PointerProperty(type=TRGSceneSettings)
+
+
+def unregister() -> None:
+    del bpy.types.Scene.trg
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)

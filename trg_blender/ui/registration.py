@@ -1,0 +1,26 @@
+"""Everything that Blender has to know of TRG, put in and taken out in order."""
+
+from __future__ import annotations
+
+import atexit
+
+import bpy
+
+from ..engine import render_engine, run_text
+from . import panels, properties
+
+PARTS = (properties, render_engine, run_text, panels)
+
+
+def register() -> None:
+    for part in PARTS:
+        part.register()
+    if getattr(bpy.app, "module", False):
+        # A class that is still registered when the interpreter ends crashes or hangs the module.
+        atexit.register(unregister)
+
+
+def unregister() -> None:
+    atexit.unregister(unregister)
+    for part in reversed(PARTS):
+        part.unregister()
