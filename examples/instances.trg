@@ -6,7 +6,7 @@ ball = sphere(vec3(0), 0.38, material::white_plastic());
 for (x = 0; x < 10; x++)
 {
     skin = material::white_plastic();
-    skin.Color(mth::mix(vec3(0.9, 0.1, 0.05), vec3(0.05, 0.2, 0.9), x / 9));
+    skin.Color(vec3(0.9, 0.1, 0.05) * (1 - x / 9) + vec3(0.05, 0.2, 0.9) * (x / 9));
     for (y = 0; y < 10; y++)
         for (z = 0; z < 10; z++)
         {

@@ -12,7 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[2]
 PACKAGE = "trg_blender"
-GENERATED_FOLDERS = {".git", ".venv", "build", "dist", "out", ".cache", "__pycache__"}
+GENERATED_FOLDERS = {"build", "dist", "out", "__pycache__"}
 
 
 @cache
@@ -30,12 +30,13 @@ def _walk() -> Iterator[str]:
     """For a copy of the tree without git."""
     for path in ROOT.rglob("*"):
         parts = path.relative_to(ROOT).parts
-        if path.is_file() and not GENERATED_FOLDERS.intersection(parts):
+        hidden = any(part.startswith(".") for part in parts[:-1]) and parts[0] != ".ci"
+        if path.is_file() and not hidden and not GENERATED_FOLDERS.intersection(parts):
             yield "/".join(parts)
 
 
 def read(name: str) -> str:
-    return (ROOT / name).read_text(encoding="utf-8")
+    return (ROOT / name).read_text(encoding="utf-8", errors="replace")
 
 
 @cache
