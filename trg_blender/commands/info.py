@@ -9,7 +9,8 @@ import sys
 from typing import Any
 
 from .. import __version__
-from ..engine.devices import list_devices, load_native, native_missing
+from ..engine.devices import list_devices, native_missing
+from ..engine.native import load_native
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

@@ -9,10 +9,10 @@ from __future__ import annotations
 import importlib
 import importlib.util
 from dataclasses import dataclass
-from types import ModuleType
+
+from .native import NativeMissing, load_native
 
 DEVICE_NAMES = ("cpu", "embree", "cuda", "glsl", "dxr")
-NATIVE_ACCELERATORS = ("auto", "bvh", "grid", "none")
 INTEGRATORS = ("path",)
 
 
@@ -51,15 +51,9 @@ def native_missing() -> str | None:
     """Why the native core cannot be used, or None."""
     try:
         load_native()
-    except ImportError as failure:
-        return f"the native core trg_native cannot be loaded: {failure}"
+    except NativeMissing as missing:
+        return str(missing)
     return None
-
-
-def load_native() -> ModuleType:
-    """The extension module trg_native. Raises ImportError."""
-    module = importlib.import_module(".native", __package__)
-    return module.trg_native  # type: ignore[no-any-return]
 
 
 def embree_missing() -> str | None:

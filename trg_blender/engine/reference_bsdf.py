@@ -135,8 +135,8 @@ def evaluate_refraction(bsdf: Bsdf, wi: Float64) -> tuple[Float64, Float64]:
     m = normalize(-(bsdf.wo + bsdf.eta[:, None] * wi))
     m = np.where(m[:, 2:3] < 0.0, -m, m)
     cos_o, cos_i = dot(bsdf.wo, m), dot(wi, m)
-    bends = (cos_o > 0.0) & (cos_i < 0.0)
     denominator = cos_o + bsdf.eta * cos_i
+    bends = (cos_o > 0.0) & (cos_i < 0.0) & (denominator != 0.0)
     jacobian = bsdf.eta**2 * np.abs(cos_i) / np.where(bends, denominator * denominator, 1.0)
     passed = bsdf.glass * (1.0 - fresnel_dielectric(cos_o, bsdf.eta))
     facets = ggx_distribution(m, alpha) * smith_shadowing(bsdf.wo, wi, alpha) * cos_o / bsdf.wo[:, 2]
@@ -160,6 +160,8 @@ def sample_bsdf(bsdf: Bsdf, rng: np.random.Generator) -> Scattered:
     wi_world = normalize(bsdf.frame.to_world(wi))
     # Deltas carry their own weight, everything else that of the mixture.
     value, pdf = evaluate_bsdf(bsdf, wi_world)
+    # A facet may send light through the surface: its lobe ends there, the density knows nothing of it.
+    pdf = np.where(np.where(lobe == GLASS_REFRACTION, -wi[:, 2], wi[:, 2]) > 0.0, pdf, 0.0)
     weight = value / np.where(pdf > 0.0, pdf, np.inf)[:, None]
     delta = (bsdf.ideal & (lobe != DIFFUSE)) | (bsdf.straight & (lobe == GLASS_REFRACTION))
     weight = np.where(delta[:, None], delta_weight(bsdf, lobe, wi_world), weight)

@@ -135,8 +135,10 @@ def bake_instance(mesh: MeshArrays, instance: InstanceArrays, transform: Float64
     else:
         normals = np.asarray(mesh.normals, dtype=np.float64) @ np.linalg.pinv(linear)
     uvs = np.zeros((count, 3, 2)) if mesh.uvs is None else np.asarray(mesh.uvs, dtype=np.float64)
-    slots = np.zeros(count, dtype=np.int64) if mesh.slots is None else mesh.slots
-    material = np.asarray(instance.slot_materials, dtype=np.int64)[slots].reshape(count)
+    slots = np.zeros(count, dtype=np.int64) if mesh.slots is None else np.asarray(mesh.slots, dtype=np.int64)
+    # As in Blender, a slot beyond the last means the last.
+    slot_materials = np.asarray(instance.slot_materials, dtype=np.int64)
+    material = slot_materials[np.minimum(slots, len(slot_materials) - 1)].reshape(count)
     area = 0.5 * np.linalg.norm(cross, axis=1)
     with np.errstate(invalid="ignore"):
         keep = np.isfinite(corners).all(axis=(1, 2)) & (area > 0.0)

@@ -77,12 +77,19 @@ def evaluate_material(table: MaterialTable, index: NDArray[np.int64], uv: Float6
     column = {name: values[index] for name, values in table.columns.items()}
     base = np.stack([column["base_r"], column["base_g"], column["base_b"]], axis=1)
     emission = np.stack([column["emission_r"], column["emission_g"], column["emission_b"]], axis=1)
-    base = textured(table, column["base_texture"], uv, base)
+    # A float image may hold anything; what a surface reflects lies between nothing and all.
+    base = np.clip(textured(table, column["base_texture"], uv, base), 0.0, 1.0)
     emission = emission * textured(table, column["emission_texture"], uv, np.ones_like(emission))
-    roughness = textured(table, column["roughness_texture"], uv, column["roughness"][:, None].repeat(3, axis=1))[:, 0]
-    metallic = textured(table, column["metallic_texture"], uv, column["metallic"][:, None].repeat(3, axis=1))[:, 0]
+    roughness = textured_number(table, "roughness", column, uv)
+    metallic = textured_number(table, "metallic", column, uv)
     return Material(base, metallic, roughness * roughness, column["ior"], column["specular"],
                     column["transmission"], emission)
+
+
+def textured_number(table: MaterialTable, name: str, column: dict[str, Float64], uv: Float64) -> Float64:
+    """A share between 0 and 1; a texture's red channel replaces it."""
+    plain = np.repeat(column[name][:, None], 3, axis=1)
+    return np.clip(textured(table, column[f"{name}_texture"], uv, plain)[:, 0], 0.0, 1.0)
 
 
 def textured(table: MaterialTable, textures: Float64, uv: Float64, plain: Float64) -> Float64:

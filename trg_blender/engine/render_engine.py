@@ -9,22 +9,25 @@ from __future__ import annotations
 import contextlib
 import logging
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import bpy
 
 from . import run_text, session
-from .devices import Unavailable, find_device
+from .devices import DEVICE_NAMES, NATIVE_ACCELERATORS, Unavailable, find_device
 from .errors import SceneError
 from .from_blender import SceneReader
 from .pace import Pace
 from .report import Progress, format_progress, with_source
 from .result import Failure, border_of, records, register_passes, wanted_passes, write_pixels
 from .scene_arrays import RenderSettings, SceneArrays
+from .to_blender import requested_modes
 
 ENGINE_ID = "TRG"
 POLL_SECONDS = 0.03
+BUDGET = 3
+"""exit code of a program that a limit stopped"""
 
 _log = logging.getLogger(__name__)
 
@@ -119,14 +122,15 @@ class TRGRenderEngine(bpy.types.RenderEngine):
 
     def _read(self, data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> Frame:
         scene = depsgraph.scene_eval
-        pending = run_text.take_pending_error()
+        pending = run_text.take_pending_error(depsgraph.scene)
         if pending is not None:
-            raise ProgramFailed(Failure("scene", str(pending)))
+            raise ProgramFailed(Failure("budget" if pending.exit_code == BUDGET else "program", pending.text))
         begin = time.perf_counter()
         self.update_stats("TRG", "reading the scene")
         size = (self.resolution_x, self.resolution_y)
         arrays = SceneReader().read(scene, depsgraph, size)
-        settings = settings_of(scene, depsgraph.view_layer, size)
+        modes = requested_modes(depsgraph.scene)
+        settings = settings_of(scene, depsgraph.view_layer, size, modes, arrays.warnings)
         for warning in arrays.warnings:
             self.report({"WARNING"}, warning)
         seconds = {"sync": time.perf_counter() - begin}
@@ -188,10 +192,25 @@ class TRGRenderEngine(bpy.types.RenderEngine):
 
 
 def settings_of(
-    scene: bpy.types.Scene, layer: bpy.types.ViewLayer, size: tuple[int, int]
+    scene: bpy.types.Scene,
+    layer: bpy.types.ViewLayer,
+    size: tuple[int, int],
+    modes: Mapping[str, str | int],
+    warnings: list[str],
 ) -> RenderSettings:
-    """Render settings from `scene.trg` and Blender's own."""
+    """Render settings from `scene.trg`, what its program asked for (`modes`), and Blender's own.
+
+    A program's wish that this machine or version cannot fulfil is a warning; the user's own is an error later.
+    """
     own = scene.trg
+    device, accel = own.device, own.accel
+    if device == "auto":
+        device = choose_device(modes.get("device"), warnings)
+    if accel == "auto" and "accel" in modes:
+        accel = str(modes["accel"])
+        if accel not in NATIVE_ACCELERATORS:
+            warnings.append(f"accelerator {accel}: not built yet in this version; auto is used")
+            accel = "auto"
     return RenderSettings(
         width=size[0],
         height=size[1],
@@ -199,18 +218,25 @@ def settings_of(
         seed=own.seed,
         max_bounces=own.max_bounces,
         threads=scene.render.threads if scene.render.threads_mode == "FIXED" else 0,
-        device=resolve_device(own.device),
-        accel=own.accel,
+        device=device,
+        accel=accel,
         integrator=own.integrator,
         passes=wanted_passes(layer),
     )
 
 
-def resolve_device(name: str) -> str:
-    """`auto` is the native core, or the reference where the core is missing and Embree is not."""
-    if name != "auto":
-        return name
-    return "cpu" if find_device("cpu").available or not find_device("embree").available else "embree"
+def choose_device(wish: str | int | None, warnings: list[str]) -> str:
+    """The program's wish if it can be had, else the native core, else the reference on Embree."""
+    if wish in DEVICE_NAMES:
+        device = find_device(str(wish))
+        if device.available:
+            return device.name
+        warnings.append(f"device {device.name}: {device.reason}; the default is used")
+    native, embree = find_device("cpu"), find_device("embree")
+    if not native.available and embree.available:
+        warnings.append(f"device cpu: {native.reason}; the slow reference renderer is used")
+        return embree.name
+    return native.name
 
 
 CLASSES = (TRGRenderEngine,)

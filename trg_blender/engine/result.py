@@ -57,7 +57,7 @@ def write_pixels(
             each.rect.foreach_set(np.ascontiguousarray(pixels[each.name], np.float32).reshape(-1))
 
 
-FAILURE_KINDS = ("scene", "budget", "cancelled", "unavailable", "internal")
+FAILURE_KINDS = ("program", "scene", "budget", "cancelled", "unavailable", "internal")
 
 
 @dataclass(frozen=True, slots=True)

@@ -77,10 +77,10 @@ def check_instance(scene: SceneArrays, instance: InstanceArrays) -> None:
     if not 0 <= instance.mesh < len(scene.meshes):
         raise SceneError(f"{name}: mesh {instance.mesh} is not there ({len(scene.meshes)} meshes)")
     slots = scene.meshes[instance.mesh].slots
-    used = 0 if slots is None or not len(slots) else int(slots.max())
-    lowest = 0 if slots is None or not len(slots) else int(slots.min())
-    if lowest < 0 or used >= len(instance.slot_materials):
-        raise SceneError(f"{name}: material slot {used} is not there ({len(instance.slot_materials)} slots)")
+    if slots is not None and len(slots) and slots.min() < 0:
+        raise SceneError(f"{name}: material slot {int(slots.min())} is not there")
+    if not len(instance.slot_materials):
+        raise SceneError(f"{name}: it has no material slot")
     materials = instance.slot_materials
     if materials.min() < 0 or materials.max() >= len(scene.materials):
         raise SceneError(f"{name}: a slot names a material that is not there ({len(scene.materials)} materials)")

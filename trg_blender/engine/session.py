@@ -13,9 +13,10 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from .devices import INTEGRATORS, NATIVE_ACCELERATORS, Unavailable, load_native, require_device
+from .devices import INTEGRATORS, Unavailable, require_device
 from .errors import SceneError
 from .image_error import PictureError, estimate_error
+from .native import ACCELERATORS, load_native
 from .native_scene import build_native_scene
 from .passes import PassSource, film_shape, job_passes, read_combined, read_passes
 from .report import HistoryEntry, Progress, RenderFacts, build_report
@@ -90,7 +91,7 @@ def start(scene: SceneArrays, settings: RenderSettings) -> RenderJob:
 
 def start_native(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
     """`settings.passes` are those of the job."""
-    if settings.accel not in NATIVE_ACCELERATORS:
+    if settings.accel not in ACCELERATORS:
         raise Unavailable(f"accelerator {settings.accel}: not built yet in this version")
     native = load_native()
     try:

@@ -6,6 +6,6 @@
 from __future__ import annotations
 
 from .errors import SceneError
-from .mirror import MirrorCounts, SceneMirror, requested_modes
+from .mirror import MirrorCounts, SceneMirror, new_planner, requested_modes
 
-__all__ = ["MirrorCounts", "SceneError", "SceneMirror", "requested_modes"]
+__all__ = ["MirrorCounts", "SceneError", "SceneMirror", "new_planner", "requested_modes"]

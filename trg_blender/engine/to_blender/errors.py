@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from ...lang.source import Span
+from .. import errors
 
 
-class SceneError(ValueError):
-    """The scene is impossible. `origin` is the place in the program that asked for it, where known.
+class SceneError(errors.SceneError):
+    """The scene that a program describes is impossible. `origin` is the place in the program that asked for it, where known.
 
     Raised before anything of the frame is written to Blender.
     """

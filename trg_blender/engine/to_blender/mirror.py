@@ -67,9 +67,11 @@ class _Frame:
 class SceneMirror:
     """Keeps the TRG collection of one scene equal to what its program describes."""
 
-    def __init__(self, scene: bpy.types.Scene) -> None:
+    def __init__(self, scene: bpy.types.Scene, planner: Planner | None = None) -> None:
+        """`planner`: one from `new_planner`, to go on from; it holds nothing of Blender's, so that it may
+        outlive an undo, where the mirror itself may not."""
         self._scene = scene
-        self._planner = Planner(_model_recipe)
+        self._planner = planner if planner is not None else new_planner()
         self.warnings: list[str] = []
         """what the last `apply` had to mend in files, and where it used a placeholder"""
 
@@ -110,6 +112,11 @@ class SceneMirror:
             materials.updated,
             worlds_updated,
         )
+
+
+def new_planner() -> Planner:
+    """What a mirror works out once and may remember over frames."""
+    return Planner(_model_recipe)
 
 
 def requested_modes(scene: bpy.types.Scene) -> dict[str, str | int]:

@@ -20,9 +20,9 @@ TORUS_SEGMENTS, TORUS_RINGS = 96, 48
 ROUND_SEGMENTS = 64
 PLANE_HALF_SIZE = 10_000.0
 FENCE_GAP = 0.05
-"""Share of a chord that stays open between two pieces of a fence."""
+"""Share of a fence's side that stays open between two pieces."""
 FENCE_THICKNESS = 0.02
-"""Thickness of a piece as a share of the fence's radius."""
+"""Thickness of a piece as a share of the fence's radius, when the pieces are few."""
 
 BOX_CORNERS = np.array(
     [(x, y, z) for x in (-0.5, 0.5) for y in (-0.5, 0.5) for z in (-0.5, 0.5)], dtype=np.float64
@@ -84,10 +84,12 @@ def plane_mesh() -> MeshData:
 def fence_mesh(radius: float, height: float, count: int) -> MeshData:
     """`count` thin walls in a ring round Y, their centres `radius` away, from -height/2 to height/2.
 
-    Each stands along a chord of the ring and leaves a small gap to the next. The first is on +Z.
+    Each stands along the ring's tangent and leaves a small gap to the next. The first is on +Z; one or two
+    are as wide as pieces of a square.
     """
-    width = 2.0 * radius * np.sin(pi / max(count, 3)) * (1.0 - FENCE_GAP)
-    thickness = min(FENCE_THICKNESS * radius, 0.2 * width)
+    thickness = FENCE_THICKNESS * radius / (1.0 + count / 50.0)
+    side = 2.0 * (radius - thickness / 2.0) * np.tan(pi / (count if count > 2 else 4))
+    width = side * (1.0 - FENCE_GAP)
     piece = BOX_CORNERS * (width, height, thickness) + (0.0, 0.0, radius)
     vertices, faces = [], []
     for index in range(count):

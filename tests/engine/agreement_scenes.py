@@ -1,0 +1,151 @@
+"""The scenes on which native and reference must agree: every material, light, camera and kind of geometry."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from trg_blender.engine.scene_arrays import Light, Material, RenderSettings, SceneArrays, Texture
+
+from .arrays import ball, box, checker, light, look_at, place, quad
+
+Case = tuple[SceneArrays, RenderSettings]
+
+SIZE = 16
+SETTINGS = RenderSettings(SIZE, SIZE, samples=512, seed=5, max_bounces=4)
+GREY = Material(0.7, 0.6, 0.5, specular=0.0)
+KEY = light("area_rectangle", (9, 8, 7), (1.5, -1.0, 3.0), direction=(-0.4, 0.3, -1.0), axis_u=(0.6, 0, -0.24),
+            axis_v=(0, 0.5, 0.15))
+
+
+def studio(subject: Material, *lights: Light, world=(0.1, 0.15, 0.2)) -> SceneArrays:
+    """A ball and a box of `subject` on a grey floor."""
+    return SceneArrays(
+        look_at((2.6, -2.4, 1.8), (0, 0, 0.3), 0.42),
+        [quad(3.0), ball(0.6, 10), box(0.35)],
+        [place(0, 0), place(1, 1, (-0.3, 0.3, 0.62)), place(2, 1, (0.8, -0.5, 0.37))],
+        [GREY, subject],
+        lights=list(lights) or [KEY],
+        world=world,
+    )
+
+
+MATERIALS = {
+    "diffuse": Material(0.8, 0.3, 0.2, specular=0.0),
+    "plastic": Material(0.2, 0.5, 0.8, roughness=0.4),
+    "plastic_polished": Material(0.2, 0.5, 0.8, roughness=0.0, ior=1.8),
+    "plastic_half_specular": Material(0.9, 0.9, 0.9, roughness=0.7, specular=0.5),
+    "metal": Material(0.9, 0.6, 0.3, metallic=1.0, roughness=0.3),
+    "metal_rough": Material(0.9, 0.6, 0.3, metallic=1.0, roughness=0.9),
+    "mirror": Material(0.9, 0.9, 0.95, metallic=1.0, roughness=0.0),
+    "glass": Material(0.9, 0.95, 1.0, transmission=1.0, roughness=0.0),
+    "glass_rough": Material(0.9, 0.7, 1.0, transmission=1.0, roughness=0.5),
+    "glass_thin_index": Material(0.9, 0.7, 1.0, transmission=1.0, roughness=0.3, ior=1.0),
+    "glass_below_one": Material(1.0, 1.0, 1.0, transmission=1.0, roughness=0.3, ior=0.75),
+    "mixture": Material(0.9, 0.5, 0.4, metallic=0.3, transmission=0.5, roughness=0.4, ior=1.4),
+    "mixture_polished": Material(0.9, 0.5, 0.4, metallic=0.3, transmission=0.5, roughness=0.0),
+    "glowing": Material(0.5, 0.5, 0.5, emission_r=2.0, emission_g=1.0, emission_b=0.3),
+}
+
+LIGHTS = {
+    "sun": light("sun", (2, 1.8, 1.5), direction=(0.5, -0.6, 1.0)),
+    "sun_with_angle": light("sun", (2, 1.8, 1.5), direction=(0.5, -0.6, 1.0), angle=0.2),
+    "point": light("point", (3, 2, 2), (0.9, 0.6, 1.6)),
+    "point_sphere": light("point", (3, 2, 2), (0.9, 0.6, 1.6), radius=0.4),
+    "point_falloff": light("point", (2, 2, 3), (0.9, 0.6, 1.6), falloff=(0.5, 0.2, 0.3)),
+    "spot": light("spot", (6, 5, 5), (1.5, -1.5, 2.5), direction=(-0.6, 0.6, -1.0), cos_outer=0.85, cos_inner=0.95),
+    "spot_sphere": light("spot", (6, 5, 5), (1.5, -1.5, 2.5), direction=(-0.6, 0.6, -1.0), radius=0.3,
+                         cos_outer=0.85, cos_inner=0.95),
+    "spot_falloff": light("spot", (4, 5, 5), (1.5, -1.5, 2.5), direction=(-0.6, 0.6, -1.0), falloff=(1.0, 0.0, 0.1),
+                          cos_outer=0.85, cos_inner=0.95),
+    "rectangle": KEY,
+    "ellipse": light("area_ellipse", (9, 8, 7), (0.3, -0.4, 1.9), direction=(0, 0, -1), axis_u=(0.6, 0, 0),
+                     axis_v=(0.1, 0.3, 0)),
+}
+
+
+def _textured() -> SceneArrays:
+    scene = studio(Material(roughness_texture=1, metallic_texture=2, base_texture=0, emission_texture=3,
+                            emission_r=0.5, emission_g=0.5, emission_b=0.5))
+    rng = np.random.default_rng(3)
+    floats = checker(3, srgb=False)
+    floats.pixels = rng.random((3, 5, 1)).astype(np.float32)
+    scene.images = [checker(), floats]
+    scene.textures = [Texture(0, 2.0, 3.0, 0.1, 0.2), Texture(1, wrap=1, scale_u=1.3), Texture(1), Texture(0, wrap=1)]
+    scene.materials[0] = replace(GREY, base_texture=1)
+    return scene
+
+
+def _mirrored_and_squashed() -> SceneArrays:
+    scene = studio(MATERIALS["glass_rough"])
+    squashed = np.array([[-0.8, 0.3, 0.0], [0.0, 1.0, 0.2], [0.0, 0.0, 0.5]])
+    scene.instances = [place(0, 0), place(1, 1, (-0.3, 0.3, 0.4), linear=squashed)]
+    scene.instances += [place(2, 1, (0.8, -0.5, 0.4), linear=np.diag([1.0, -1.0, 1.0]))]
+    return scene
+
+
+def _many_copies() -> SceneArrays:
+    scene = studio(MATERIALS["plastic"])
+    for index in range(25):
+        scene.instances.append(place(2, 1, (index % 5 * 0.5 - 1, index // 5 * 0.5 - 1, 0.1), linear=np.eye(3) * 0.2))
+    return scene
+
+
+def _glow() -> SceneArrays:
+    scene = studio(MATERIALS["plastic"], KEY)
+    scene.lights = []
+    scene.materials += [Material(0, 0, 0, emission_r=8, emission_g=6, emission_b=3, specular=0.0)]
+    scene.instances += [place(2, 2, (0.3, 0.6, 1.6)), place(1, 2, (-0.9, -0.9, 0.3), linear=np.eye(3) * 0.2)]
+    return scene
+
+
+def _orthographic() -> SceneArrays:
+    scene = studio(MATERIALS["metal"])
+    scene.camera = look_at((2.6, -2.4, 1.8), (0, 0, 0.3), 1.5, kind=1)
+    scene.camera.clip_start, scene.camera.clip_end = 3.2, 4.5
+    return scene
+
+
+def _all_lights() -> SceneArrays:
+    scene = studio(MATERIALS["plastic"], *LIGHTS.values())
+    scene.materials[0] = replace(GREY, emission_g=0.3)
+    return scene
+
+
+def _many_lights() -> SceneArrays:
+    rng = np.random.default_rng(1)
+    bulbs = [light("point", tuple(rng.random(3)), (*rng.uniform(-2, 2, 2), rng.uniform(1.2, 3)), radius=0.1 * (k % 3))
+             for k in range(12)]
+    return studio(MATERIALS["plastic"], *bulbs)
+
+
+GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
+    "textured": _textured,
+    "mirrored_and_squashed": _mirrored_and_squashed,
+    "many_copies": _many_copies,
+    "glow": _glow,
+    "orthographic_clipped": _orthographic,
+    "all_lights": _all_lights,
+    "many_lights": _many_lights,
+}
+
+
+def cases() -> dict[str, Case]:
+    """Name -> (scene, settings of the reference). All devices take the same scene."""
+    found: dict[str, Case] = {}
+    for name, material in MATERIALS.items():
+        found[f"material_{name}"] = (studio(material), SETTINGS)
+    for name, one in LIGHTS.items():
+        found[f"light_{name}"] = (studio(MATERIALS["plastic"], one), SETTINGS)
+    for name, build in GEOMETRY.items():
+        # The reference pays for every light at every surface.
+        scene = build()
+        found[name] = (scene, replace(SETTINGS, samples=128) if len(scene.lights) > 5 else SETTINGS)
+    found["direct_light_only"] = (studio(MATERIALS["metal"]), replace(SETTINGS, max_bounces=0))
+    found["one_bounce"] = (studio(MATERIALS["glass"]), replace(SETTINGS, max_bounces=1))
+    found["border"] = (studio(MATERIALS["plastic"]), replace(SETTINGS, width=32, height=24, border=(7, 4, 23, 20)))
+    furnace = studio(Material(0.8, 0.8, 0.8), light("sun", (0, 0, 0)), world=(1, 1, 1))
+    found["furnace"] = (furnace, SETTINGS)
+    return found
