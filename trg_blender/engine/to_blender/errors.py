@@ -7,8 +7,9 @@ from .. import errors
 
 
 class SceneError(errors.SceneError):
-    """The scene that a program describes is impossible. `origin` is the place in the program that asked for it, where known.
+    """The scene that a program describes is impossible.
 
+    `origin` is the place in the program that asked for it, where known.
     Raised before anything of the frame is written to Blender.
     """
 

@@ -1,0 +1,152 @@
+"""Running the program of a scene: frame k of the timeline is the program's k-th Scene.Render().
+
+`run_program(scene, frame)` builds one frame and is what the command line calls. The handlers do the
+same for every render with the TRG engine: `render_init` (once, the last moment at which a picture size
+counts) and `render_pre` (each frame). A handler cannot stop a render, so what went wrong waits in
+`take_pending_error` for the engine's update().
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import bpy
+from bpy.app.handlers import persistent
+
+from .to_blender.main_thread import MainThread, MainThreadBusy
+from .to_blender.program_runner import ProgramFailure, ProgramOutcome, ProgramRunner
+
+ENGINE_ID = "TRG"
+
+
+class ProgramTable:
+    """The runners of all scenes, what went wrong in handlers, and the way to the main thread."""
+
+    def __init__(self) -> None:
+        self.main_thread = MainThread()
+        self._runners: dict[int, ProgramRunner] = {}
+        self._pending: dict[str, ProgramFailure] = {}
+        self._is_running = False
+
+    def runner_of(self, scene: bpy.types.Scene) -> ProgramRunner:
+        return self._runners.setdefault(scene.session_uid, ProgramRunner())
+
+    def forget_all(self) -> None:
+        self._runners.clear()
+        self._pending.clear()
+
+    def run(self, scene: bpy.types.Scene, frame: int) -> ProgramOutcome | None:
+        """See run_program. One program at a time: a second one, started from within, is refused."""
+        text = program_of(scene)
+        if text is None:
+            return None
+        if self._is_running:
+            return ProgramOutcome(frame, ProgramFailure("another program is running"))
+        self._is_running = True
+        try:
+            return self.runner_of(scene).run(scene, text, frame)
+        finally:
+            self._is_running = False
+
+    def run_in_handler(self, scene: bpy.types.Scene) -> None:
+        """Build the scene's current frame on the main thread; keep what goes wrong for the engine."""
+        if scene.render.engine != ENGINE_ID or program_of(scene) is None:
+            return
+        self._pending.pop(scene.name, None)
+
+        def work() -> ProgramOutcome | None:
+            outcome = self.run(scene, frame_of(scene))
+            _settle_view_layers(scene)
+            return outcome
+
+        try:
+            outcome = self.main_thread.call(work)
+            failure = outcome.failure if outcome is not None else None
+        except MainThreadBusy as error:
+            failure = ProgramFailure(f"the program could not be run: {error}")
+        except Exception as error:  # noqa: BLE001 - the border of both handlers
+            failure = ProgramFailure(
+                f"internal error while running the program: {type(error).__name__}: {error}"
+            )
+        if failure is not None:
+            self._pending[scene.name] = failure
+
+    def take_pending(self, scene: bpy.types.Scene | None) -> ProgramFailure | None:
+        name = scene.name if scene is not None else next(iter(self._pending), "")
+        return self._pending.pop(name, None)
+
+
+programs = ProgramTable()
+
+
+def run_program(scene: bpy.types.Scene, frame: int) -> ProgramOutcome | None:
+    """Bring `scene` to the `frame`-th Render() (1 is the first) of its program; None when it has none.
+
+    Call it on the main thread. What is wrong with the program or its scene is in the outcome, not raised.
+    """
+    return programs.run(scene, frame)
+
+
+def take_pending_error(scene: bpy.types.Scene | None = None) -> ProgramFailure | None:
+    """What a handler could not say, once; without a scene, that of any."""
+    return programs.take_pending(scene)
+
+
+def program_log(scene: bpy.types.Scene) -> list[str]:
+    """What the scene's program printed and was warned about, oldest line first; the list itself."""
+    return programs.runner_of(scene).log
+
+
+def program_of(scene: bpy.types.Scene) -> bpy.types.Text | None:
+    """The text that builds the scene."""
+    return getattr(getattr(scene, "trg", None), "program", None)
+
+
+def frame_of(scene: bpy.types.Scene) -> int:
+    """The program's frame for the current one of the timeline; what lies before the start is frame 1."""
+    return max(scene.frame_current - scene.frame_start + 1, 1)
+
+
+def _settle_view_layers(scene: bpy.types.Scene) -> None:
+    """Evaluate what windows show now, on this thread, so that none does it while the render goes on."""
+    manager = bpy.context.window_manager
+    for window in manager.windows if manager is not None else ():
+        window.view_layer.update()
+
+
+@persistent
+def _on_render_init(scene: bpy.types.Scene, *_: object) -> None:
+    programs.run_in_handler(scene)
+
+
+@persistent
+def _on_render_pre(scene: bpy.types.Scene, *_: object) -> None:
+    programs.run_in_handler(scene)
+
+
+@persistent
+def _on_load(*_: object) -> None:
+    programs.forget_all()
+
+
+def _handlers() -> tuple[tuple[list, Callable[..., None]], ...]:
+    lists = bpy.app.handlers
+    return (
+        (lists.render_init, _on_render_init),
+        (lists.render_pre, _on_render_pre),
+        (lists.load_pre, _on_load),
+    )
+
+
+def register() -> None:
+    programs.main_thread.start()
+    for handlers, function in _handlers():
+        handlers.append(function)
+
+
+def unregister() -> None:
+    for handlers, function in _handlers():
+        if function in handlers:
+            handlers.remove(function)
+    programs.main_thread.stop()
+    programs.forget_all()

@@ -1,0 +1,173 @@
+"""One scene's program between its frames: compile it, run it on or anew, hand its scene to the mirror."""
+
+from __future__ import annotations
+
+import hashlib
+import time
+from dataclasses import dataclass, field
+
+import bpy
+
+from ... import lang
+from .. import errors
+from .mirror import MirrorCounts, SceneMirror, new_planner
+from .plan import Planner
+from .text_files import TextFiles
+
+RUN_AHEAD_SECONDS = 120.0
+"""How long a jump to a later frame may take before the program counts as out of budget."""
+MAX_LOG_LINES = 10_000
+BUDGET_CODES = "E6"
+"""Diagnostics whose code begins so come from a limit."""
+
+EXIT_WRONG = 1
+EXIT_BUDGET = 3
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramFailure:
+    """Why there is no new frame. `text` is ready to be shown: file:line:col: error: ..., with the lines."""
+
+    text: str
+    exit_code: int = EXIT_WRONG
+    diagnostics: tuple[lang.Diagnostic, ...] = ()
+
+    def __str__(self) -> str:
+        return self.text
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramOutcome:
+    """What came of running a program up to a frame."""
+
+    frame: int
+    """of the program: 1 is its first Render()"""
+    failure: ProgramFailure | None = None
+    counts: MirrorCounts | None = None
+    """what was written to the scene; None: nothing was tried"""
+    ended: bool = False
+    """the program came to its end earlier: its last frame stays"""
+    seconds: float = 0.0
+
+
+@dataclass(slots=True)
+class ProgramRunner:
+    """One scene's program between its frames. Holds nothing of Blender's, so undo cannot break it."""
+
+    log: list[str] = field(default_factory=list)
+    """what the program printed and was warned about, oldest first"""
+    _digest: str = ""
+    _files: TextFiles | None = None
+    _own_source: lang.SourceFile | None = None
+    _program: lang.Program | None = None
+    _session: lang.Session | None = None
+    _frame: int = 0
+    _last: lang.SceneDescription | None = None
+    _ended: bool = False
+    _output_taken: int = 0
+    _diagnostics_taken: int = 0
+    _planner: Planner = field(default_factory=new_planner)
+
+    def run(self, scene: bpy.types.Scene, text: bpy.types.Text, frame: int) -> ProgramOutcome:
+        """Bring the scene to the program's frame (1 is the first), restarting to go back."""
+        begin = time.perf_counter()
+        failure = None
+        counts = None
+        try:
+            self._compile(text)
+            self._advance(scene, frame)
+            if self._last is None:
+                failure = ProgramFailure(
+                    f"{text.name}: error: the program ended before its first Scene.Render()"
+                )
+            else:
+                mirror = SceneMirror(scene, self._planner)
+                counts = mirror.apply(self._last)
+                self._say(mirror.warnings)
+        except lang.ProgramError as error:
+            failure = self._failure_of(error)
+        except _OutOfTime as error:
+            failure = ProgramFailure(f"{text.name}: error: {error}", EXIT_BUDGET)
+        except errors.SceneError as error:
+            failure = ProgramFailure(str(error))
+        finally:
+            self._take_output()
+        if failure is not None:
+            self._say([failure.text])
+            self._restart()
+        return ProgramOutcome(frame, failure, counts, self._ended, time.perf_counter() - begin)
+
+    def _compile(self, text: bpy.types.Text) -> None:
+        """Compile when the text or anything it includes is not what it was. Raises ProgramError."""
+        source = text.as_string()
+        digest = hashlib.blake2b(f"{text.name}\0{source}".encode()).hexdigest()
+        if self._program is not None and digest == self._digest and self._files.is_current(text):
+            return
+        self._restart()
+        self._program = None
+        self._digest = digest
+        self._files = TextFiles(text)
+        self._own_source = lang.SourceFile.from_text(text.name, source)
+        self._program = lang.compile_source(source, text.name, self._files)
+
+    def _advance(self, scene: bpy.types.Scene, frame: int) -> None:
+        """Let the program run to its `frame`-th Render() or to its end. Raises ProgramError."""
+        if self._session is None or frame < self._frame:
+            self._restart()
+            self._session = lang.Session(self._program, host_options(scene))
+        deadline = time.monotonic() + RUN_AHEAD_SECONDS
+        while self._frame < frame and not self._ended:
+            event = self._session.next_frame()
+            if isinstance(event, lang.EndEvent):
+                self._ended = True
+            else:
+                self._frame += 1
+                self._last = event.scene
+            if self._frame < frame and time.monotonic() > deadline:
+                raise _OutOfTime(self._frame, frame)
+
+    def _restart(self) -> None:
+        self._session = None
+        self._frame, self._last, self._ended = 0, None, False
+        self._output_taken = self._diagnostics_taken = 0
+
+    def _take_output(self) -> None:
+        """Move what the session printed and warned about since the last time into the log."""
+        if self._session is None:
+            return
+        printed = self._session.output[self._output_taken :]
+        found = self._session.diagnostics[self._diagnostics_taken :]
+        self._output_taken += len(printed)
+        self._diagnostics_taken += len(found)
+        self._say([*printed, *(self._shown(d) for d in found if d.severity != "error")])
+
+    def _say(self, lines: list[str]) -> None:
+        self.log += lines
+        del self.log[:-MAX_LOG_LINES]
+
+    def _shown(self, diagnostic: lang.Diagnostic) -> str:
+        sources = dict(self._files.sources) if self._files is not None else {}
+        if self._own_source is not None:
+            sources[self._own_source.name] = self._own_source
+        return lang.render_diagnostic(diagnostic, sources)
+
+    def _failure_of(self, error: lang.ProgramError) -> ProgramFailure:
+        errors = [d for d in error.diagnostics if d.severity == "error"]
+        over_budget = bool(errors) and all(d.code.startswith(BUDGET_CODES) for d in errors)
+        text = "\n".join(self._shown(d) for d in errors)
+        return ProgramFailure(text, EXIT_BUDGET if over_budget else EXIT_WRONG, tuple(error.diagnostics))
+
+
+class _OutOfTime(Exception):
+    """The frame was not reached in RUN_AHEAD_SECONDS."""
+
+    def __init__(self, reached: int, wanted: int) -> None:
+        super().__init__(
+            f"frame {wanted} was not reached within {RUN_AHEAD_SECONDS:g} s, only frame {reached}"
+        )
+
+
+def host_options(scene: bpy.types.Scene) -> lang.HostOptions:
+    """std::frames() counts the timeline, std::fps() is the scene's."""
+    frames = max(scene.frame_end - scene.frame_start + 1, 1)
+    return lang.HostOptions(frames=frames, fps=scene.render.fps / scene.render.fps_base)
