@@ -169,6 +169,9 @@ TRG_FN bool sample_glass(const Bsdf& b, Vec3 h, float u, BsdfSample* sample, boo
     const Vec3 wi = refract_or_reflect(b.wo, h, b.eta, u, &reflected);
     *is_done = b.smooth || (b.thin_step && !reflected);
     sample->wi = wi;
+    // A facet that sends light through the surface ends the path: eval_bsdf would take the direction
+    // for one of the other side, whose density does not count this way of finding it.
+    if (reflected != (wi.z > 0.0f)) return false;
     if (!*is_done) return true;
     if (!sample_delta(b, wi, reflected, true, 1.0f, sample)) return false;
     if (!b.smooth)
@@ -197,6 +200,7 @@ TRG_FN bool sample_bsdf(const Bsdf& b, float lobe, Sample2 uv, BsdfSample* sampl
             return sample_delta(b, mirror, true, false, p_mirror, sample);
         } else {
             sample->wi = h * (2.0f * dot(b.wo, h)) - b.wo;
+            if (!(sample->wi.z > 0.0f)) return false;
         }
     }
     const BsdfValue value = eval_bsdf<kTransmission>(b, sample->wi);
