@@ -39,7 +39,7 @@ class ImageStore:
 
         A texture without a file is a magenta and black check. Raises SceneError for a damaged file.
         """
-        key = f"{self._source_key(texture)}|{'color' if is_color else 'data'}"
+        key = f"{self.source_key(texture)}|{'color' if is_color else 'data'}"
         image = self._images.get(key)
         if image is None:
             image = self._make(texture, is_color)
@@ -58,7 +58,8 @@ class ImageStore:
             bpy.data.images.remove(image)
         self._made.clear()
 
-    def _source_key(self, texture: TextureRecord) -> str:
+    def source_key(self, texture: TextureRecord) -> str:
+        """Names the picture behind a texture; changes when its file does."""
         if texture.path in self.embedded:
             return str(texture.path)
         if texture.path is None:
@@ -101,8 +102,9 @@ def _image_of_pixels(name: str, pixels: NDArray[np.uint8], is_color: bool) -> bp
     rgba[..., : min(channels, 3) if channels != 1 else 3] = pixels[..., :3] / np.float32(255.0)
     if channels == 4:
         rgba[..., 3] = pixels[..., 3] / np.float32(255.0)
-    image.pixels.foreach_set(rgba.reshape(-1))
+    # Another colour space throws the pixels away: it comes first.
     _set_color_space(image, is_color)
+    image.pixels.foreach_set(rgba.reshape(-1))
     image.update()
     image.pack()
     return image

@@ -45,7 +45,8 @@ class MaterialStore:
         if record.key in self._done and material is not None:
             return material
         self._done.add(record.key)
-        digest = fingerprint(replace(record, version=0))
+        pictures = [self.images.source_key(texture) for _, texture in record.textures]
+        digest = fingerprint(replace(record, version=0), pictures)
         if material is not None and material.get(HASH) == digest:
             return material
         if material is None:
@@ -68,7 +69,9 @@ class MaterialStore:
     def _write(self, material: bpy.types.Material, record: MaterialRecord) -> None:
         if bpy.app.version < (5, 0, 0) and not material.use_nodes:
             material.use_nodes = True
-        signature = repr([(slot, texture.path, texture.tiles) for slot, texture in record.textures])
+        signature = repr(
+            [(slot, self.images.source_key(texture), texture.tiles) for slot, texture in record.textures]
+        )
         shader = next((n for n in material.node_tree.nodes if n.type == "BSDF_PRINCIPLED"), None)
         if shader is None or material.get(TEXTURE_SIGNATURE, "[]") != signature or not _has_output(material):
             shader = _new_tree(material.node_tree)

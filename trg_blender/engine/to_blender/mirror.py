@@ -148,10 +148,8 @@ def _prepare_images(plan: FramePlan, description: SceneDescription, images: Imag
 def _write_objects(frame: _Frame, description: SceneDescription) -> None:
     for key, contents in frame.plan.new_meshes.items():
         mesh = build_mesh(key.partition(":")[0], key, contents.mesh)
-        if contents.materials:
-            mesh.materials.clear()
-            for record in contents.materials:
-                mesh.materials.append(frame.materials.material_of(record))
+        for slot, record in enumerate(contents.materials[: len(mesh.materials)]):
+            mesh.materials[slot] = frame.materials.material_of(record)
         frame.meshes[key] = mesh
     for planned in frame.plan.singles:
         _write_single(frame, planned)

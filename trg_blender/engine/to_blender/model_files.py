@@ -74,7 +74,7 @@ def read_contents(shape: ShapeRecord) -> MeshContents:
 def _import_with_blender(path: Path, y_is_turned: bool, importer: Callable[[str], object]) -> MeshContents:
     """Import, keep the triangles as arrays, remove all that the importer made. RuntimeError: it failed."""
     before = {name: set(getattr(bpy.data, name)) for name in IMPORTED_ID_LISTS}
-    selected = [obj for obj in bpy.context.view_layer.objects if obj.select_get()]
+    selected = [obj for obj in bpy.context.view_layer.objects if obj and obj.select_get()]
     active = bpy.context.view_layer.objects.active
     try:
         importer(str(path))

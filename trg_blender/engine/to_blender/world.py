@@ -15,7 +15,9 @@ def write_world(
     scene: bpy.types.Scene, owner: str, description: SceneDescription, images: ImageStore
 ) -> bool:
     """Give the scene its own world with the program's background; tells whether anything was written."""
-    digest = fingerprint(description.background, description.ambient)
+    background = description.background
+    picture = images.source_key(background) if isinstance(background, TextureRecord) else ""
+    digest = fingerprint(background, description.ambient, picture)
     world = scene.world
     if world is None or world.get(OWNER) != owner:
         own = (w for w in bpy.data.worlds if w.get(OWNER) == owner)
