@@ -18,11 +18,14 @@ from types import ModuleType
 from typing import Any, TextIO
 
 from .. import cli
-from ..engine.devices import DEVICE_NAMES, INTEGRATORS, NATIVE_ACCELERATORS, Unavailable, require_device
+from ..engine.devices import DEVICE_NAMES, INTEGRATORS, Unavailable, require_device
+from ..engine.native import ACCELERATORS
+from ..engine.report import with_source
 from .render_output import ProgressPrinter, blender_chatter_off, describe_report, frame_path, write_report
 
 SOURCES, PICTURES = (".trg", ".blend"), (".png", ".exr")
 EXIT_CODES = {
+    "program": cli.WRONG,
     "scene": cli.WRONG,
     "internal": cli.WRONG,
     "budget": cli.CANCELLED,
@@ -54,7 +57,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     which.add_argument("--frames", type=_frame_range, metavar="A-B", help="frames to render; numbered files")
     add("--size", type=_size, metavar="WxH", help="picture size; else the program's or the file's")
     add("--device", choices=("auto", *DEVICE_NAMES), help="what traces the rays")
-    add("--accel", choices=NATIVE_ACCELERATORS, help="structure that finds the nearest surface")
+    add("--accel", choices=ACCELERATORS, help="structure that finds the nearest surface")
     add("--integrator", choices=INTEGRATORS, help="how light is gathered")
     add("--samples", type=_at_least(1), metavar="N", help="light paths for each pixel")
     add("--seed", type=_at_least(0), metavar="N", help="changes the noise")
@@ -78,7 +81,8 @@ def run(args: argparse.Namespace) -> int:
             for frame in job.frames():
                 job.render(frame)
         except RenderFailed as failure:
-            return cli.fail(str(failure), failure.code)
+            sys.stderr.write(f"{failure}\n")
+            return failure.code
         finally:
             job.close()
         if args.report is not None:
@@ -119,7 +123,7 @@ class RenderCommand:
             try:
                 bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
             except RuntimeError as error:
-                raise RenderFailed(f"{args.file}: {_operator_message(error)}", cli.WRONG) from error
+                raise RenderFailed(f"trg: error: {args.file}: {_operator_message(error)}", cli.WRONG) from error
         else:
             bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
             bpy.context.scene.trg.program = bpy.data.texts.load(path)
@@ -149,6 +153,7 @@ class RenderCommand:
         scene = self.bpy.context.scene
         scene.frame_set(frame)
         scene.render.filepath = str(picture)
+        script_seconds = self._run_program(scene)
         progress = ProgressPrinter(sys.stderr, f"frame {frame}", self.args.quiet)
         records.watcher = progress
         begin = time.perf_counter()
@@ -157,14 +162,35 @@ class RenderCommand:
         except RuntimeError as error:
             failure = records.failure_of(scene.name)
             if failure is None:
-                raise RenderFailed(_operator_message(error), cli.WRONG) from error
-            raise RenderFailed(failure.message, EXIT_CODES[failure.kind]) from error
+                raise RenderFailed(f"trg: error: {_operator_message(error)}", cli.WRONG) from error
+            raise RenderFailed(f"trg: error: {failure.message}", EXIT_CODES[failure.kind]) from error
         finally:
             progress.close()
             records.watcher = None
-        self._finish(picture, frame, time.perf_counter() - begin)
+        self._finish(picture, frame, {"script": script_seconds, "total": time.perf_counter() - begin})
 
-    def _finish(self, picture: Path, frame: int, seconds: float) -> None:
+    def _run_program(self, scene: Any) -> float | None:
+        """Runs the scene's program as the render's handlers will (who then find the frame ready).
+
+        Gives its seconds, None without a program; writes what it printed. Raises RenderFailed with its
+        diagnostics.
+        """
+        from ..engine.run_text import frame_of, program_log, run_program
+
+        outcome = run_program(scene, frame_of(scene))
+        if outcome is None:
+            return None
+        log = program_log(scene)
+        lines = [line for line in log if outcome.failure is None or line != outcome.failure.text]
+        log.clear()
+        if not self.args.quiet:
+            self.out.writelines(f"{line}\n" for line in lines)
+            self.out.flush()
+        if outcome.failure is not None:
+            raise RenderFailed(outcome.failure.text, outcome.failure.exit_code)
+        return float(outcome.seconds)
+
+    def _finish(self, picture: Path, frame: int, seconds: dict[str, float | None]) -> None:
         from ..engine.result import records
 
         scene = self.bpy.context.scene
@@ -172,7 +198,9 @@ class RenderCommand:
         if report is None:
             size = [scene.render.resolution_x, scene.render.resolution_y]
             report = {"file": None, "frame": frame, "size": size, "engine": scene.render.engine}
-            report["seconds"] = {"total": seconds}
+            report["seconds"] = seconds
+        elif seconds["script"] is not None:
+            report = with_source(report, None, frame, {"script": seconds["script"]})
         report = {**report, "file": str(self.args.file)}
         self.reports.append(report)
         if self.args.quiet:
@@ -180,7 +208,7 @@ class RenderCommand:
         if "error" in report:
             self.out.write(describe_report(picture, report) + "\n")
         else:
-            self.out.write(f"{picture}: {scene.render.engine}, {seconds:.2f} s\n")
+            self.out.write(f"{picture}: {scene.render.engine}, {seconds['total']:.2f} s\n")
         self.out.flush()
 
     def _registration(self) -> ModuleType:

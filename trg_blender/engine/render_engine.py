@@ -15,9 +15,10 @@ from dataclasses import dataclass, replace
 import bpy
 
 from . import run_text, session
-from .devices import DEVICE_NAMES, NATIVE_ACCELERATORS, Unavailable, find_device
+from .devices import DEVICE_NAMES, Unavailable, find_device
 from .errors import SceneError
 from .from_blender import SceneReader
+from .native import ACCELERATORS
 from .pace import Pace
 from .report import Progress, format_progress, with_source
 from .result import Failure, border_of, records, register_passes, wanted_passes, write_pixels
@@ -208,7 +209,7 @@ def settings_of(
         device = choose_device(modes.get("device"), warnings)
     if accel == "auto" and "accel" in modes:
         accel = str(modes["accel"])
-        if accel not in NATIVE_ACCELERATORS:
+        if accel not in ACCELERATORS:
             warnings.append(f"accelerator {accel}: not built yet in this version; auto is used")
             accel = "auto"
     return RenderSettings(
