@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,3 +17,21 @@ class Span:
 
     def __str__(self) -> str:
         return f"{self.file}:{self.line}:{self.col}"
+
+    def to(self, end: Span) -> Span:
+        """The span from the start of this one to the end of `end`."""
+        return Span(self.file, self.line, self.col, end.end_line, end.end_col)
+
+
+@dataclass(frozen=True, slots=True)
+class SourceFile:
+    """A text as the scanner sees it: no byte order mark, every line ended by `\\n`."""
+
+    name: str
+    text: str
+    lines: tuple[str, ...] = field(repr=False)
+
+    @staticmethod
+    def from_text(name: str, text: str) -> SourceFile:
+        text = text.removeprefix("\ufeff").replace("\r\n", "\n").replace("\r", "\n")
+        return SourceFile(name, text, tuple(text.split("\n")))

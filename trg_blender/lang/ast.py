@@ -1,0 +1,282 @@
+"""The syntax tree of a program: frozen nodes, each with its span.
+
+`depth` of an expression bounds the depth of the Python tree made from it: the parser keeps it
+below a limit, so that no later phase can exhaust a stack.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from .source import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Number:
+    span: Span
+    value: float
+    depth: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class String:
+    span: Span
+    text: str
+    depth: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class Path:
+    """`name`, `#name`, `space::name`; `name` holds the parts joined by `::`."""
+
+    span: Span
+    name: str
+    hashed: bool = False
+    depth: int = 1
+
+    @property
+    def is_global(self) -> bool:
+        return self.hashed or "::" in self.name
+
+
+@dataclass(frozen=True, slots=True)
+class Unary:
+    span: Span
+    op: str
+    operand: Expr
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class Binary:
+    """Arithmetic and comparison; `op_span` is the operator itself."""
+
+    span: Span
+    op: str
+    left: Expr
+    right: Expr
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class Logic:
+    """`&&` and `||`."""
+
+    span: Span
+    op: str
+    left: Expr
+    right: Expr
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class Assign:
+    """`op` is `=`, `+=`, `-=`, `*=`, `/=` or `%=`."""
+
+    span: Span
+    op: str
+    target: Path | Field
+    value: Expr
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """`++` and `--`, before or after the target."""
+
+    span: Span
+    op: str
+    prefix: bool
+    target: Path | Field
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class Call:
+    span: Span
+    callee: Expr
+    arguments: tuple[Expr, ...]
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class Field:
+    """`object.name`; the name of an operator field is `operator+` and so on."""
+
+    span: Span
+    object: Expr
+    name: str
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class Parameter:
+    span: Span
+    name: str
+    default: Expr | None
+    type_name: str | None
+    type_span: Span | None
+
+
+@dataclass(frozen=True, slots=True)
+class Function:
+    """A function value. `name` is what it is assigned to, for messages."""
+
+    span: Span
+    parameters: tuple[Parameter, ...]
+    body: Block
+    name: str = ""
+    depth: int = 1
+
+
+@dataclass(frozen=True, slots=True)
+class ExprStatement:
+    span: Span
+    value: Expr
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    span: Span
+    statements: tuple[Statement, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class If:
+    """The branches of one `if ... else if ...` chain in order, then the last `else`."""
+
+    span: Span
+    branches: tuple[tuple[Expr, Statement], ...]
+    otherwise: Statement | None
+
+
+@dataclass(frozen=True, slots=True)
+class While:
+    """`span` is the keyword."""
+
+    span: Span
+    condition: Expr
+    body: Statement
+
+
+@dataclass(frozen=True, slots=True)
+class For:
+    """`span` is the keyword."""
+
+    span: Span
+    init: Expr | None
+    condition: Expr | None
+    step: Expr | None
+    body: Statement
+
+
+@dataclass(frozen=True, slots=True)
+class Case:
+    """`value` is None for `default`."""
+
+    span: Span
+    value: Expr | None
+    body: tuple[Statement, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Switch:
+    span: Span
+    subject: Expr
+    cases: tuple[Case, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Include:
+    span: Span
+    name: str
+    name_span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Break:
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Continue:
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Return:
+    span: Span
+    value: Expr | None
+
+
+Expr = Number | String | Path | Unary | Binary | Logic | Assign | Step | Call | Field | Function
+Statement = (
+    ExprStatement | Block | If | While | For | Switch | Include | Break | Continue | Return
+)
+
+
+@dataclass(frozen=True, slots=True)
+class FileTree:
+    """One source file. `includes` maps the place of an include to the file it runs, once."""
+
+    name: str
+    statements: tuple[Statement, ...]
+    includes: dict[Span, str] = field(default_factory=dict)
+
+
+def child_expressions(node: Expr) -> tuple[Expr, ...]:
+    """The direct operands of an expression, in order of evaluation; not the body of a function."""
+    match node:
+        case Unary():
+            return (node.operand,)
+        case Binary() | Logic():
+            return (node.left, node.right)
+        case Assign():
+            return (node.target, node.value)
+        case Step():
+            return (node.target,)
+        case Call():
+            return (node.callee, *node.arguments)
+        case Field():
+            return (node.object,)
+    return ()
+
+
+def parts_of(node: Statement) -> tuple[tuple[Expr, ...], tuple[Statement, ...]]:
+    """The direct expressions and the direct statements of a statement."""
+    match node:
+        case ExprStatement():
+            return (node.value,), ()
+        case Block():
+            return (), node.statements
+        case If():
+            bodies = tuple(body for _, body in node.branches)
+            rest = () if node.otherwise is None else (node.otherwise,)
+            return tuple(condition for condition, _ in node.branches), bodies + rest
+        case While():
+            return (node.condition,), (node.body,)
+        case For():
+            heads = (node.init, node.condition, node.step)
+            return tuple(e for e in heads if e is not None), (node.body,)
+        case Switch():
+            values = tuple(case.value for case in node.cases if case.value is not None)
+            return (node.subject, *values), tuple(s for case in node.cases for s in case.body)
+        case Return(value=value) if value is not None:
+            return (value,), ()
+    return (), ()
+
+
+def walk_context(statements: tuple[Statement, ...]) -> list[Expr]:
+    """Every expression of one context, in source order, without entering function values."""
+    found: list[Expr] = []
+    todo: list[Statement | Expr] = list(reversed(statements))
+    while todo:
+        node = todo.pop()
+        if isinstance(node, Statement):
+            expressions, inner = parts_of(node)
+            ordered = sorted((*expressions, *inner), key=lambda n: (n.span.line, n.span.col))
+            todo.extend(reversed(ordered))
+        else:
+            found.append(node)
+            todo.extend(reversed(child_expressions(node)))
+    return found

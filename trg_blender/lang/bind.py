@@ -1,0 +1,302 @@
+"""How built-ins are declared, checked and called.
+
+Every built-in function, constant and method is one row: its name, a signature in a small notation,
+what it returns, one line of documentation, and the Python function behind it. Argument checks,
+messages, completion and the reference all come from the row. The notation:
+
+    "centre: vec3, radius: num > 0, count: num 1..100, looks: material|medium?, ...rest: any"
+
+`?` means optional (None), `= 2` a default number, `> 0`, `>= 0` and `a..b` a range, `...` any
+number of arguments. Types are those of `typeof`, `any` (all but undef), `anything` (undef too) and
+`colour` (a vec3 of numbers that are not negative). Numbers and vectors must be finite.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from .values import Str, TrgError, Value, type_name
+from .vector import Vec3
+
+if TYPE_CHECKING:
+    from .runtime import Runtime
+
+LARGEST = 1.7976931348623157e308
+_PARAMETER = re.compile(
+    r"(?P<rest>\.\.\.)?(?P<name>\w+): (?P<types>[\w|]+)(?P<optional>\?)?"
+    r"(?: (?:(?P<open>>) (?P<above>\S+)|>= (?P<least>\S+)|(?P<low>-?[\d.]+?)\.\.(?P<high>-?[\d.e]+)))?"
+    r"(?: = (?P<default>\S+))?"
+)
+
+
+@dataclass(frozen=True, slots=True)
+class HostParameter:
+    """One parameter of a built-in; numbers lie in low..high, `low` itself excluded when `open_low`."""
+
+    name: str
+    types: tuple[str, ...]
+    required: bool = True
+    default: float | None = None
+    low: float = -LARGEST
+    high: float = LARGEST
+    open_low: bool = False
+    rest: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Builtin:
+    """One row of the host table. Methods have an `owner` type and a name such as `shape.Move`."""
+
+    name: str
+    signature: str
+    parameters: tuple[HostParameter, ...]
+    result: str
+    doc: str
+    run: Callable[..., object]
+    owner: str | None = None
+
+    @property
+    def shown(self) -> str:
+        """The name as messages show it."""
+        owner, _, name = self.name.rpartition(".")
+        return f"Scene.{name}" if owner == "scene" else self.name
+
+    @property
+    def required(self) -> int:
+        return sum(p.required and not p.rest for p in self.parameters)
+
+
+@dataclass(frozen=True, slots=True)
+class HostConstant:
+    name: str
+    value: float
+    doc: str
+
+
+class HostFunction(Value):
+    """A built-in as a value of the program. Called with the hidden depth first, as functions are."""
+
+    __slots__ = ("builtin", "invoke")
+    kind = "function"
+
+    def __init__(self, builtin: Builtin, invoke: Callable[..., object]) -> None:
+        self.builtin = builtin
+        self.invoke = invoke
+
+    def __call__(self, _depth: int, *arguments: object) -> object:
+        return self.invoke(*arguments)
+
+
+def parse_signature(text: str) -> tuple[HostParameter, ...]:
+    """The parameters of a signature. A text outside the notation raises ValueError."""
+    return tuple(_parse_parameter(part) for part in text.split(", ")) if text else ()
+
+
+def _parse_parameter(text: str) -> HostParameter:
+    m = _PARAMETER.fullmatch(text)
+    if m is None:
+        raise ValueError(f"signature not understood: {text!r}")
+    low = m["above"] or m["least"] or m["low"]
+    return HostParameter(
+        name=m["name"],
+        types=tuple(m["types"].split("|")),
+        required=not (m["optional"] or m["default"] or m["rest"]),
+        default=float(m["default"]) if m["default"] else None,
+        low=float(low) if low else -LARGEST,
+        high=float(m["high"]) if m["high"] else LARGEST,
+        open_low=bool(m["open"]),
+        rest=bool(m["rest"]),
+    )
+
+
+class HostTable:
+    """All built-ins, by name; filled once, at import, by the modules of `library`."""
+
+    def __init__(self) -> None:
+        self.functions: dict[str, Builtin] = {}
+        self.constants: dict[str, HostConstant] = {}
+        self.methods: dict[tuple[str, str], Builtin] = {}
+
+    def function(
+        self, name: str, signature: str, doc: str, result: str = "undef"
+    ) -> Callable[[Callable[..., object]], Callable[..., object]]:
+        """Declare the decorated `run(rt, *arguments)` as built-in function `name`."""
+
+        def declare(run: Callable[..., object]) -> Callable[..., object]:
+            self.functions[name] = Builtin(
+                name, signature, parse_signature(signature), result, doc, run
+            )
+            return run
+
+        return declare
+
+    def pure(
+        self, name: str, signature: str, doc: str, compute: Callable[..., object], result: str = "num"
+    ) -> None:
+        """Declare a function of its arguments alone."""
+
+        def run(_rt: Runtime, *arguments: object) -> object:
+            return compute(*arguments)
+
+        self.function(name, signature, doc, result)(run)
+
+    def constant(self, name: str, value: float, doc: str) -> None:
+        self.constants[name] = HostConstant(name, value, doc)
+
+    def method(
+        self, owner: type[Value], name: str, signature: str, doc: str, result: str = ""
+    ) -> Callable[[Callable[..., object]], Callable[..., object]]:
+        """Declare the decorated `run(rt, object, *arguments)` as method `name` of class `owner`."""
+
+        def declare(run: Callable[..., object]) -> Callable[..., object]:
+            row = Builtin(
+                f"{owner.kind}.{name}", signature, parse_signature(signature),
+                result or owner.kind, doc, run, owner.kind,
+            )  # fmt: skip
+            self.methods[owner.kind, name] = row
+
+            def invoke(self: Value, _depth: int, *arguments: object) -> object:
+                return run(self.rt, self, *check_arguments(row, arguments))  # type: ignore[attr-defined]
+
+            setattr(owner, "T_" + name, invoke)
+            return run
+
+        return declare
+
+    @property
+    def names(self) -> frozenset[str]:
+        """Every name that the resolver takes as built in."""
+        return frozenset(self.functions) | frozenset(self.constants)
+
+    def method_names(self, kind: str) -> list[str]:
+        return [name for owner, name in self.methods if owner == kind]
+
+    def bind(self, rt: Runtime) -> dict[str, object]:
+        """The globals of a session that stand for built-ins."""
+        made: dict[str, object] = {f"g_{c.name}": c.value for c in self.constants.values()}
+        for row in self.functions.values():
+            invoke = make_invoker(rt, row)
+            made["b_" + row.name] = invoke
+            made["g_" + row.name] = HostFunction(row, invoke)
+        for constant in self.constants.values():
+            made["b_" + constant.name] = constant.value
+        return made
+
+
+HOST = HostTable()
+"""The host table. Import `library` to have it filled."""
+
+
+def make_invoker(rt: Runtime, row: Builtin) -> Callable[..., object]:
+    """`row` as a Python function that checks its arguments. One number in, the fast way."""
+    run = row.run
+    parameters = row.parameters
+    if len(parameters) == 1 and parameters[0].types == ("num",) and not parameters[0].open_low:
+        low, high = parameters[0].low, parameters[0].high
+
+        def invoke_one(*arguments: object) -> object:
+            if len(arguments) == 1:
+                value = arguments[0]
+                if type(value) is float and low <= value <= high:
+                    return run(rt, value)
+            return run(rt, *check_arguments(row, arguments))
+
+        return invoke_one
+
+    def invoke(*arguments: object) -> object:
+        return run(rt, *check_arguments(row, arguments))
+
+    return invoke
+
+
+def check_arguments(row: Builtin, arguments: tuple[object, ...]) -> list[object]:
+    """The arguments as Python values, defaults filled in; TrgError names the first that is wrong."""
+    parameters = row.parameters
+    given = len(arguments)
+    rest = parameters[-1] if parameters and parameters[-1].rest else None
+    most = len(parameters) - (rest is not None)
+    if given < row.required or (given > most and rest is None):
+        raise _wrong_count(row, most, given)
+    checked: list[object] = []
+    for index, parameter in enumerate(parameters[:most]):
+        if index < given:
+            checked.append(_check(row, index, parameter, arguments[index]))
+        else:
+            checked.append(parameter.default)
+    if rest is not None:
+        checked += [_check(row, i, rest, arguments[i]) for i in range(most, given)]
+    return checked
+
+
+def _wrong_count(row: Builtin, most: int, given: int) -> TrgError:
+    wanted = str(most) if row.required == most else f"{row.required} to {most}"
+    if row.parameters and row.parameters[-1].rest:
+        wanted = f"at least {row.required}"
+    usage = f"{row.shown}({row.signature})"
+    return TrgError("E506", "usage", name=row.shown, wanted=wanted, given=given, usage=usage)
+
+
+def _check(row: Builtin, index: int, parameter: HostParameter, value: object) -> object:
+    kind = type_name(value)
+    types = parameter.types
+    if kind == "generator":
+        raise TrgError("E415")
+    if "anything" in types or ("any" in types and kind != "undef"):
+        return value
+    if kind not in types and not (kind == "vec3" and "colour" in types):
+        raise _mismatch(row, index, parameter, kind)
+    if type(value) is float:
+        if not parameter.low <= value <= parameter.high or (
+            parameter.open_low and value == parameter.low
+        ):
+            raise _out_of_range(row, index, parameter, value)
+    elif type(value) is Vec3:
+        _check_vector(row, index, parameter, value)
+    elif type(value) is Str:
+        return value.text
+    return value
+
+
+def _check_vector(row: Builtin, index: int, parameter: HostParameter, value: Vec3) -> None:
+    for component in value:
+        if not -LARGEST <= component <= LARGEST:
+            raise _at(TrgError("E503", name=row.shown, index=index + 1), index)
+        if component < 0.0 and "colour" in parameter.types:
+            raise _at(TrgError("E505", name=row.shown, index=index + 1), index)
+
+
+def _at(error: TrgError, index: int) -> TrgError:
+    error.argument = index
+    return error
+
+
+def _mismatch(row: Builtin, index: int, parameter: HostParameter, kind: str) -> TrgError:
+    values = {"name": row.shown, "index": index + 1, "parameter": parameter.name, "kind": kind}
+    if kind == "undef":
+        return _at(TrgError("E507", **values), index)
+    if parameter.types == ("num",):
+        return _at(TrgError("E502", **values), index)
+    return _at(TrgError("E501", wanted=_wanted(parameter.types), **values), index)
+
+
+def _wanted(types: Iterable[str]) -> str:
+    names = ["a colour (vec3)" if t == "colour" else f"{_article(t)} {t}" for t in types]
+    return " or ".join(names)
+
+
+def _article(word: str) -> str:
+    return "an" if word[0] in "aeiou" else "a"
+
+
+def _out_of_range(row: Builtin, index: int, parameter: HostParameter, value: float) -> TrgError:
+    values: dict[str, object] = {"name": row.shown, "index": index + 1, "parameter": parameter.name}
+    if not -LARGEST <= value <= LARGEST:
+        return _at(TrgError("E503", **values), index)
+    if parameter.high == LARGEST:
+        wanted = f"{'>' if parameter.open_low else '>='} {parameter.low:g}"
+    else:
+        wanted = f"{parameter.low:g} .. {parameter.high:g}"
+    return _at(TrgError("E504", wanted=wanted, value=f"{value:g}", **values), index)

@@ -1,0 +1,5 @@
+"""The built-ins. Importing this package fills the host table."""
+
+from __future__ import annotations
+
+from . import core, lights, material, mth, scene_methods, shapes, std  # noqa: F401

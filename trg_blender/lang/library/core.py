@@ -1,0 +1,55 @@
+"""Built-ins without a namespace: output, types, vectors, objects."""
+
+from __future__ import annotations
+
+from ..bind import HOST
+from ..runtime import Runtime
+from ..values import Obj, TrgError, Undef, format_value, type_name
+from ..vector import Vec3
+
+
+@HOST.function("print", "...values: anything", "Write values to the log, one line.")
+def _print(rt: Runtime, *values: object) -> object:
+    rt.write_line(" ".join(format_value(value) for value in values))
+    return rt.undef
+
+
+@HOST.function("typeof", "value: anything", "The name of a value's type.", "str")
+def _typeof(rt: Runtime, value: object) -> object:
+    return rt.text(type_name(value))
+
+
+@HOST.function("isdef", "value: anything", "1 when the variable or field has a value.", "num")
+def _isdef(rt: Runtime, value: object) -> object:
+    return 0.0 if type(value) is Undef else 1.0
+
+
+@HOST.function("vec3", "x: num, y: num?, z: num?", "A vector; one number fills all three.", "vec3")
+def _vec3(rt: Runtime, x: float, y: float | None, z: float | None) -> object:
+    if y is None:
+        return Vec3.of(x, x, x)
+    if z is None:
+        raise TrgError("E506", name="vec3", wanted="1 or 3", given=2)
+    return Vec3.of(x, y, z)
+
+
+@HOST.function("object", "", "A new object without fields.", "object")
+def _object(rt: Runtime) -> object:
+    return rt.new_object()
+
+
+@HOST.function("copy", "value: any", "A copy of an object's fields; other values as they are.", "any")
+def _copy(rt: Runtime, value: object) -> object:
+    if type(value) is not Obj:
+        return value
+    made = rt.new_object()
+    made.__dict__.update(value.__dict__)
+    rt.work_on_text(64 * len(value.__dict__))
+    return made
+
+
+@HOST.function("len", "text: str", "The number of characters of a string.", "num")
+def _len(rt: Runtime, text: str) -> object:
+    return float(len(text))
+
+

@@ -1,0 +1,265 @@
+"""The values that make a scene: shapes, lights, materials, textures, media.
+
+They can be edited; `record()` hands out a frozen record, the same object as long as nothing changed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+from ..runtime import Runtime
+from ..scene import (
+    IDENTITY,
+    TEXTURE_SLOTS,
+    LightRecord,
+    MaterialRecord,
+    MediumRecord,
+    ShapeRecord,
+    TextureRecord,
+    Transform,
+)
+from ..source import Span
+from ..values import TrgError, Value
+from ..vector import Vec3
+
+Triple = tuple[float, float, float]
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where a thing was made: its key, stable from run to run, and the span of the call."""
+
+    key: str
+    span: Span
+
+
+def place_of(rt: Runtime, kind: str) -> Place:
+    """The place of the call that is running; the k-th thing of a kind made there has number k."""
+    site = rt.site()
+    span = site.span if site is not None else Span(rt.program.main, 1, 1, 1, 1)
+    count = rt.made_at.get((kind, span), 0) + 1
+    rt.made_at[kind, span] = count
+    file = "" if span.file == rt.program.main else f"{span.file}:"
+    return Place(f"{kind}@{file}{span.line}:{span.col}#{count}", span)
+
+
+def triple(v: Vec3) -> Triple:
+    """A vector as a plain tuple, as records hold it."""
+    return (v[0], v[1], v[2])
+
+
+def name_error(name: str, reason: str) -> TrgError:
+    return TrgError("E508", name=name, reason=reason)
+
+
+class Medium(Value):
+    """What fills a shape."""
+
+    __slots__ = ("record", "rt")
+    kind = "medium"
+
+    def __init__(self, rt: Runtime, record: MediumRecord) -> None:
+        self.rt = rt
+        self.record = record
+
+    def shown(self) -> str:
+        return f"enviroment({self.record.decay:g}, {self.record.index:g})"
+
+
+class Texture(Value):
+    """An image file."""
+
+    __slots__ = ("record", "rt")
+    kind = "texture"
+
+    def __init__(self, rt: Runtime, record: TextureRecord) -> None:
+        self.rt = rt
+        self.record = record
+
+    def shown(self) -> str:
+        return f"texture({self.record.file})"
+
+
+class Material(Value):
+    """A material that may be edited; its record's version rises when an edit changed something."""
+
+    __slots__ = ("_draft", "_record", "rt")
+    kind = "material"
+
+    def __init__(self, rt: Runtime, record: MaterialRecord) -> None:
+        self.rt = rt
+        self._draft = record
+        self._record: MaterialRecord | None = None
+
+    def edit(self, **changes: object) -> Material:
+        """Set fields of the record."""
+        self._draft = replace(self._draft, **changes)  # type: ignore[arg-type]
+        self.rt.scene.materials_changed = True
+        return self
+
+    def set_texture(self, texture: Texture, slot: int) -> Material:
+        textures = dict(self._draft.textures)
+        textures[TEXTURE_SLOTS[max(1, slot)]] = texture.record
+        order = list(TEXTURE_SLOTS.values())
+        return self.edit(textures=tuple(sorted(textures.items(), key=lambda t: order.index(t[0]))))
+
+    @property
+    def draft(self) -> MaterialRecord:
+        return self._draft
+
+    def record(self) -> MaterialRecord:
+        last = self._record
+        if last is None:
+            self._record = self._draft
+        elif last is not self._draft:
+            self._draft = replace(self._draft, version=last.version)
+            if self._draft == last:
+                self._draft = last
+            else:
+                self._draft = replace(self._draft, version=last.version + 1)
+            self._record = self._draft
+        return self._record  # type: ignore[return-value]
+
+    def shown(self) -> str:
+        return f"material {self._draft.name}"
+
+
+@dataclass(slots=True)
+class Look:
+    """The part of a shape that can change."""
+
+    material: Material | None
+    medium: MediumRecord
+    transform: Transform = IDENTITY
+    name: str = ""
+
+
+class Placed(Value):
+    """A shape or a light: has a key, a name and a transform, and stands in the scene or not."""
+
+    __slots__ = ("key", "origin", "rt")
+
+    def touch(self) -> None:
+        """Note that the record must be made anew."""
+        raise NotImplementedError
+
+    def move_by(self, change: Callable[[Transform], Transform]) -> None:
+        """Replace the transform by `change` of it."""
+        raise NotImplementedError
+
+
+class Shape(Placed):
+    """A shape of the scene."""
+
+    __slots__ = ("_fixed", "_record", "look")
+    kind = "shape"
+
+    def __init__(self, rt: Runtime, fixed: ShapeRecord, look: Look) -> None:
+        self.rt = rt
+        self.key = fixed.key
+        self.origin = fixed.origin
+        self._fixed = fixed
+        self._record: ShapeRecord | None = None
+        self.look = look
+
+    @property
+    def fixed(self) -> ShapeRecord:
+        """What cannot change: kind, parameters, mesh key, path, origin."""
+        return self._fixed
+
+    def touch(self) -> None:
+        self.rt.scene.dirty[self] = None
+
+    def move_by(self, change: Callable[[Transform], Transform]) -> None:
+        self.look.transform = change(self.look.transform)
+        self.touch()
+
+    def record(self) -> ShapeRecord:
+        look, last = self.look, self._record
+        made = replace(
+            self._fixed,
+            version=1 if last is None else last.version,
+            material=None if look.material is None else look.material.record(),
+            medium=look.medium,
+            transform=look.transform,
+            name=look.name,
+        )
+        if made != last:
+            self._record = made if last is None else replace(made, version=last.version + 1)
+        return self._record  # type: ignore[return-value]
+
+    def shown(self) -> str:
+        return self._fixed.kind
+
+
+class Light(Placed):
+    """A light of the scene."""
+
+    __slots__ = ("_draft", "_record")
+    kind = "light"
+
+    def __init__(self, rt: Runtime, record: LightRecord) -> None:
+        self.rt = rt
+        self.key = record.key
+        self.origin = record.origin
+        self._draft = record
+        self._record: LightRecord | None = None
+
+    @property
+    def draft(self) -> LightRecord:
+        return self._draft
+
+    def edit(self, **changes: object) -> None:
+        self._draft = replace(self._draft, **changes)  # type: ignore[arg-type]
+        self.touch()
+
+    def touch(self) -> None:
+        self.rt.scene.dirty[self] = None
+
+    def move_by(self, change: Callable[[Transform], Transform]) -> None:
+        self.edit(transform=change(self._draft.transform))
+
+    def record(self) -> LightRecord:
+        last = self._record
+        made = replace(self._draft, version=1 if last is None else last.version)
+        if made != last:
+            self._record = made if last is None else replace(made, version=last.version + 1)
+        return self._record  # type: ignore[return-value]
+
+    def shown(self) -> str:
+        return f"{self._draft.kind}_light"
+
+
+@dataclass(slots=True)
+class Contents:
+    """What stands in the scene, in the order of Add."""
+
+    shapes: dict[Shape, ShapeRecord | None] = field(default_factory=dict)
+    lights: dict[Light, LightRecord | None] = field(default_factory=dict)
+
+
+def multiply(a: Transform, b: Transform) -> Transform:
+    """The transform that applies `b` first, then `a`."""
+    rows = []
+    for r in range(3):
+        row = a[4 * r : 4 * r + 4]
+        for c in range(4):
+            total = row[0] * b[c] + row[1] * b[4 + c] + row[2] * b[8 + c]
+            rows.append(total + (row[3] if c == 3 else 0.0))
+    return tuple(rows)
+
+
+def rotation(axis: Vec3, degrees: float) -> Transform:
+    """Turn about an axis through the origin, counter-clockwise seen against it (Rodrigues)."""
+    length = math.hypot(*axis)
+    x, y, z = (c / length for c in axis)
+    angle = math.radians(degrees)
+    s, c = math.sin(angle), math.cos(angle)
+    d = 1.0 - c
+    return (
+        c + x * x * d, x * y * d - z * s, x * z * d + y * s, 0.0,
+        y * x * d + z * s, c + y * y * d, y * z * d - x * s, 0.0,
+        z * x * d - y * s, z * y * d + x * s, c + z * z * d, 0.0,
+    )  # fmt: skip

@@ -1,0 +1,46 @@
+"""The limits of a running program; every error that comes from one names it and its value."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+MAX_SOURCE = 262_144
+MAX_INCLUDES = 32
+MAX_INCLUDE_DEPTH = 8
+MAX_CALL_DEPTH = 200
+MAX_OPERATOR_DEPTH = 50
+
+
+@dataclass(frozen=True, slots=True)
+class Limits:
+    """Limits that the host may change. Steps and seconds count from one Render() to the next."""
+
+    max_steps: int = 20_000_000
+    """Turns of loops, calls, and blocks of straight statements."""
+    max_seconds: float = 10.0
+    """CPU seconds of the thread that runs the program."""
+    max_string: int = 65_536
+    """Characters of one string."""
+    max_text_bytes: int = 32 * 1024 * 1024
+    """Bytes of all live strings."""
+    max_blocks: int = 1_500_000
+    """Python memory blocks: values, objects, fields."""
+    max_shapes: int = 1_000_000
+    """Shapes and lights made in one run."""
+    output_lines_frame: int = 200
+    output_lines: int = 10_000
+    output_columns: int = 4_096
+
+
+@dataclass(frozen=True, slots=True)
+class HostOptions:
+    """What the host tells a session."""
+
+    limits: Limits = field(default_factory=Limits)
+    frames: int = 1
+    """std::frames(): how many frames the host means to take."""
+    fps: float = 24.0
+    language: str = "en"
+    """Language of messages: `en` or `ru`."""
+    strict_files: bool = False
+    """A missing texture or model is an error instead of a warning."""

@@ -1,0 +1,249 @@
+"""The statement parser: tokens become the tree of one file."""
+
+from __future__ import annotations
+
+from . import ast
+from .cursor import Cursor, SyntaxStop
+from .diagnostics import DiagnosticBag
+from .parse_expr import ExpressionParser
+from .scan import scan_source
+from .source import SourceFile, Span
+
+MAX_LOOPS = 8
+MAX_CASES = 1000
+MAX_BRANCHES = 150
+
+
+class Parser:
+    """Recursive descent over statements; one error a statement, then on at the next."""
+
+    def __init__(self, source: SourceFile, bag: DiagnosticBag) -> None:
+        self.source = source
+        self.bag = bag
+        self.cursor = Cursor(scan_source(source, bag), bag)
+        self.expressions = ExpressionParser(self.cursor, self)
+        # What stands around the statement: loops and switches of this function, outside in.
+        self.around: list[str] = []
+        self.functions = 0
+
+    def parse_file(self) -> ast.FileTree:
+        statements: list[ast.Statement] = []
+        cursor = self.cursor
+        while cursor.token.kind != "end" and not self.bag.full:
+            if cursor.sees("}"):
+                self.bag_error("E210", cursor.next().span)
+                continue
+            self._recovering(statements)
+        return ast.FileTree(self.source.name, tuple(statements))
+
+    def parse_function_body(self) -> ast.Block:
+        """The block of a function: loops around it end at its border."""
+        around, self.around = self.around, []
+        self.functions += 1
+        start = self.cursor.statement_start
+        try:
+            return self._block()
+        finally:
+            self.around = around
+            self.functions -= 1
+            self.cursor.statement_start = start
+
+    def bag_error(self, code: str, span: Span, **values: object) -> None:
+        """Report without giving the statement up."""
+        try:
+            self.cursor.stop(code, span, **values)
+        except SyntaxStop:
+            return
+
+    def _recovering(self, statements: list[ast.Statement]) -> None:
+        """Parse one statement into `statements`; after an error skip to the next."""
+        cursor = self.cursor
+        state = (cursor.levels, len(self.around), self.functions)
+        start = cursor.at
+        try:
+            statements.append(self.statement())
+        except SyntaxStop:
+            cursor.levels, self.functions = state[0], state[2]
+            del self.around[state[1] :]
+            if self.bag.full:
+                cursor.at = len(cursor.tokens) - 1
+                return
+            cursor.skip_statement()
+            if cursor.at == start and not cursor.sees("}"):
+                cursor.next()
+
+    def statement(self) -> ast.Statement:
+        cursor = self.cursor
+        cursor.statement_start = cursor.at
+        cursor.enter()
+        token = cursor.token
+        if token.kind == "keyword":
+            parse = _KEYWORD_STATEMENTS.get(token.text)
+            made = parse(self) if parse else self._expression_statement()
+        elif cursor.sees("{"):
+            made = self._block()
+        elif cursor.sees(";"):
+            cursor.next()
+            made = ast.Block(token.span, ())
+        elif token.text == "include" and cursor.tokens[cursor.at + 1].text == "(":
+            made = self._include()
+        else:
+            made = self._expression_statement()
+        cursor.leave()
+        return made
+
+    def _expression_statement(self) -> ast.ExprStatement:
+        value = self.expressions.parse()
+        self.cursor.expect(";")
+        return ast.ExprStatement(value.span, value)
+
+    def _block(self) -> ast.Block:
+        cursor = self.cursor
+        opening = cursor.expect("{")
+        statements: list[ast.Statement] = []
+        while not cursor.sees("}"):
+            if cursor.token.kind == "end":
+                self._unclosed(opening.span)
+            self._recovering(statements)
+        return ast.Block(opening.span.to(cursor.next().span), tuple(statements))
+
+    def _unclosed(self, span: Span) -> None:
+        if not any(item.code == "E211" for item in self.bag.items) and not self.bag.full:
+            self.cursor.stop("E211", span)
+        raise SyntaxStop
+
+    def _parenthesised(self) -> ast.Expr:
+        self.cursor.expect("(")
+        value = self.expressions.parse()
+        self.cursor.expect(")")
+        return value
+
+    def _if(self) -> ast.If:
+        cursor = self.cursor
+        start = cursor.next().span
+        branches = [(self._parenthesised(), self.statement())]
+        otherwise: ast.Statement | None = None
+        while otherwise is None and cursor.accept("else"):
+            if not cursor.sees("if"):
+                otherwise = self.statement()
+                break
+            if len(branches) == MAX_BRANCHES:
+                cursor.stop("E224", cursor.token.span, limit=MAX_BRANCHES)
+            cursor.next()
+            branches.append((self._parenthesised(), self.statement()))
+        return ast.If(start, tuple(branches), otherwise)
+
+    def _inside(self, kind: str, span: Span) -> None:
+        self.around.append(kind)
+        if len(self.around) > MAX_LOOPS:
+            self.cursor.stop("E225", span, "split_loops", limit=MAX_LOOPS)
+
+    def _while(self) -> ast.While:
+        start = self.cursor.next().span
+        self._inside("loop", start)
+        condition = self._parenthesised()
+        body = self.statement()
+        self.around.pop()
+        return ast.While(start, condition, body)
+
+    def _for(self) -> ast.For:
+        cursor = self.cursor
+        start = cursor.next().span
+        self._inside("loop", start)
+        cursor.expect("(")
+        init = None if cursor.sees(";") else self.expressions.parse()
+        cursor.expect(";")
+        condition = None if cursor.sees(";") else self.expressions.parse()
+        cursor.expect(";")
+        step = None if cursor.sees(")") else self.expressions.parse()
+        cursor.expect(")")
+        body = self.statement()
+        self.around.pop()
+        return ast.For(start, init, condition, step, body)
+
+    def _switch(self) -> ast.Switch:
+        cursor = self.cursor
+        start = cursor.next().span
+        self._inside("switch", start)
+        subject = self._parenthesised()
+        opening = cursor.expect("{")
+        cases: list[ast.Case] = []
+        while not cursor.sees("}"):
+            if cursor.token.kind == "end":
+                self._unclosed(opening.span)
+            cases.append(self._case(cases))
+        cursor.next()
+        self.around.pop()
+        return ast.Switch(start, subject, tuple(cases))
+
+    def _case(self, before: list[ast.Case]) -> ast.Case:
+        cursor = self.cursor
+        start = cursor.token.span
+        if len(before) == MAX_CASES:
+            cursor.stop("E226", start, limit=MAX_CASES)
+        value: ast.Expr | None = None
+        if cursor.accept("case"):
+            value = self.expressions.parse()
+        elif cursor.accept("default"):
+            if any(case.value is None for case in before):
+                cursor.stop("E212", start)
+        else:
+            cursor.stop("E213", start)
+        cursor.expect(":")
+        body: list[ast.Statement] = []
+        while not (cursor.sees("case") or cursor.sees("default") or cursor.sees("}")):
+            if cursor.token.kind == "end":
+                break
+            self._recovering(body)
+        return ast.Case(start, value, tuple(body))
+
+    def _include(self) -> ast.Include:
+        cursor = self.cursor
+        start = cursor.next().span
+        if self.functions or self.around or cursor.levels > 1:
+            cursor.stop("E214", start)
+        cursor.expect("(")
+        token = cursor.next()
+        if token.kind != "string":
+            cursor.stop("E215", token.span)
+        cursor.expect(")")
+        end = cursor.expect(";").span
+        return ast.Include(start.to(end), str(token.value), token.span)
+
+    def _break(self) -> ast.Break:
+        span = self.cursor.next().span
+        if not self.around:
+            self.bag_error("E216", span, text="break")
+        self.cursor.expect(";")
+        return ast.Break(span)
+
+    def _continue(self) -> ast.Continue:
+        span = self.cursor.next().span
+        if "loop" not in self.around:
+            self.bag_error("E217", span, text="continue")
+        self.cursor.expect(";")
+        return ast.Continue(span)
+
+    def _return(self) -> ast.Return:
+        span = self.cursor.next().span
+        if not self.functions:
+            self.bag_error("E218", span, text="return")
+        value = None if self.cursor.sees(";") else self.expressions.parse()
+        self.cursor.expect(";")
+        return ast.Return(span if value is None else span.to(value.span), value)
+
+
+_KEYWORD_STATEMENTS = {
+    "if": Parser._if,
+    "while": Parser._while,
+    "for": Parser._for,
+    "switch": Parser._switch,
+    "break": Parser._break,
+    "continue": Parser._continue,
+    "return": Parser._return,
+}
+
+
+def parse_source(source: SourceFile, bag: DiagnosticBag) -> ast.FileTree:
+    """The tree of one file. Errors go to `bag`; a tree with errors must not be run."""
+    return Parser(source, bag).parse_file()

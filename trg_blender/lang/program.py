@@ -1,0 +1,189 @@
+"""From source texts to a program that can be run: parse, include, resolve, translate, check, compile."""
+
+from __future__ import annotations
+
+import ast as py
+import warnings
+from dataclasses import dataclass, field
+from types import CodeType
+
+from . import ast
+from .bind import HOST
+from .check import check_tree
+from .diagnostics import Diagnostic, DiagnosticBag, Notice, ProgramError
+from .emit import emit_file
+from .emit_expr import ProgramParts
+from .files import FileError, FileResolver, NoFiles
+from .limits import MAX_INCLUDE_DEPTH, MAX_INCLUDES, MAX_SOURCE
+from .parse import parse_source
+from .resolve import FunctionInfo, Resolution, resolve_program
+from .runtime import Site
+from .source import SourceFile, Span
+from .yields import YieldAnalysis
+
+
+@dataclass(frozen=True, slots=True)
+class FunctionFacts:
+    """What messages say of a function."""
+
+    name: str
+    wanted: str
+    takes_self: bool
+    """The first parameter is called `self`: a call through a field passes the object."""
+
+
+@dataclass(frozen=True, slots=True)
+class Program:
+    """A compiled program; the same one may be run any number of times.
+
+    `diagnostics` are lints: a program with errors does not come to be.
+    """
+
+    main: str
+    """Name of the file that was compiled."""
+    sources: dict[str, SourceFile]
+    resolver: FileResolver
+    diagnostics: tuple[Diagnostic, ...]
+    codes: tuple[CodeType, ...] = field(repr=False)
+    """One for each file; the first is the main one."""
+    sites: dict[Span, Site] = field(repr=False)
+    strings: dict[str, str] = field(repr=False)
+    """String constants by text: the name under which translated code finds each."""
+    global_names: tuple[str, ...] = field(repr=False)
+    functions: tuple[FunctionFacts, ...] = field(repr=False)
+
+    def function_name(self, code_name: str) -> str:
+        """The author's name of the function compiled as `code_name`."""
+        return self.functions[int(code_name.removeprefix("f_"))].name
+
+
+class _Loader:
+    """Reads the main text and everything it includes, in the order in which they run."""
+
+    def __init__(self, resolver: FileResolver, bag: DiagnosticBag) -> None:
+        self.resolver = resolver
+        self.bag = bag
+        self.sources: dict[str, SourceFile] = {}
+        self.trees: list[ast.FileTree] = []
+        self.total = 0
+        self._open: list[str] = []
+
+    def load(self, source: SourceFile) -> None:
+        """Parse `source`, then the files it includes; errors go to the bag."""
+        self.sources[source.name] = source
+        self.total += len(source.text)
+        if self.total > MAX_SOURCE:
+            start = Span(source.name, 1, 1, 1, 1)
+            self.bag.add(Notice("E109", start, {"limit": MAX_SOURCE}))
+            return
+        tree = parse_source(source, self.bag)
+        self.trees.append(tree)
+        self._open.append(source.name)
+        for statement in tree.statements:
+            if isinstance(statement, ast.Include):
+                self._include(statement, tree)
+        self._open.pop()
+
+    def _include(self, node: ast.Include, tree: ast.FileTree) -> None:
+        try:
+            source = self.resolver.resolve_include(node.name, tree.name)
+        except FileError as error:
+            self._error(error.code, node, name=node.name[:80])
+            return
+        if source.name in self._open:
+            self._error("E320", node, name=source.name)
+        elif source.name in self.sources:
+            return
+        elif len(self.sources) > MAX_INCLUDES:
+            self._error("E321", node, limit=MAX_INCLUDES)
+        elif len(self._open) > MAX_INCLUDE_DEPTH:
+            self._error("E322", node, limit=MAX_INCLUDE_DEPTH)
+        else:
+            tree.includes[node.span] = source.name
+            self.load(source)
+
+    def _error(self, code: str, node: ast.Include, **values: object) -> None:
+        self.bag.add(Notice(code, node.name_span, values))
+
+
+def compile_source(
+    text: str, file_name: str, resolver: FileResolver | None = None, language: str = "en"
+) -> Program:
+    """Compile a program.
+
+    `file_name` is what diagnostics call the text, and where its includes are relative to;
+    `language` that of messages, `en` or `ru`. Without a resolver only the bundled library can be
+    included and no file is found. Raises ProgramError with all errors found (at most 20).
+    """
+    bag = DiagnosticBag(language)
+    resolver = resolver or NoFiles()
+    try:
+        return _compile(SourceFile.from_text(file_name, text), resolver, bag)
+    except RecursionError:
+        # The caller's own stack was nearly full: our limits on nesting assume a fresh one.
+        bag.add(Notice("E220", Span(file_name, 1, 1, 1, 1), {"limit": "stack"}))
+        raise ProgramError(bag.in_order()) from None
+
+
+def _compile(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -> Program:
+    loader = _Loader(resolver, bag)
+    loader.load(source)
+    _stop_at_errors(bag)
+    resolution = resolve_program(loader.trees, HOST.names, bag)
+    _stop_at_errors(bag)
+    analysis = YieldAnalysis(resolution)
+    analysis.run()
+    parts = ProgramParts(resolution, analysis)
+    codes = tuple(_compile_file(parts, loader.trees, n) for n in range(len(loader.trees)))
+    return Program(
+        main=source.name,
+        sources=loader.sources,
+        resolver=resolver,
+        diagnostics=bag.in_order(),
+        codes=codes,
+        sites=parts.sites,
+        strings=parts.strings,
+        global_names=tuple(resolution.globals),
+        functions=_facts(resolution),
+    )
+
+
+def _stop_at_errors(bag: DiagnosticBag) -> None:
+    """Raise ProgramError if the bag holds errors: parse errors on lines that the scanner already
+    reported are consequences and left out."""
+    if not bag.error_count:
+        return
+    scanned = {(d.span.file, d.span.line) for d in bag.items if d.code.startswith("E1")}
+    kept = [
+        d
+        for d in bag.in_order()
+        if not (d.code.startswith("E2") and (d.span.file, d.span.line) in scanned)
+    ]
+    raise ProgramError(tuple(kept))
+
+
+def _compile_file(parts: ProgramParts, trees: list[ast.FileTree], index: int) -> CodeType:
+    tree = trees[index]
+    numbers = {t.name: n for n, t in enumerate(trees)}
+    includes = {span: numbers[name] for span, name in tree.includes.items()}
+    module = emit_file(parts, tree, index, includes)
+    check_tree(module)
+    return _compile_tree(module, tree.name)
+
+
+def _compile_tree(module: py.Module, file_name: str) -> CodeType:
+    with warnings.catch_warnings():
+        # Python warns of calls of numbers and the like; the language reports them itself.
+        warnings.simplefilter("ignore")
+        return compile(module, file_name, "exec", dont_inherit=True)
+
+
+def _facts(resolution: Resolution) -> tuple[FunctionFacts, ...]:
+    ordered = sorted(resolution.functions.values(), key=lambda info: info.index)
+    return tuple(FunctionFacts(i.name, _wanted(i), i.takes_self) for i in ordered)
+
+
+def _wanted(info: FunctionInfo) -> str:
+    most = len(info.node.parameters)
+    least = sum(p.default is None for p in info.node.parameters)
+    return str(most) if least == most else f"{least} to {most}"

@@ -1,0 +1,240 @@
+"""The state of one run: budget, memory accounts, output, places, and the calls of overloads."""
+
+from __future__ import annotations
+
+import sys
+import time
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain, repeat
+from types import CodeType, FrameType, GeneratorType
+from typing import TYPE_CHECKING
+
+from .diagnostics import DiagnosticBag, Notice
+from .limits import MAX_CALL_DEPTH, MAX_OPERATOR_DEPTH, HostOptions
+from .scene import RenderModes
+from .source import Span
+from .values import COMPARISON, Obj, Str, TrgError, Undef, overload_of, trg_frame
+
+if TYPE_CHECKING:
+    from .library.mth import Pcg32
+    from .library.scene_methods import SceneObject
+    from .program import Program
+
+SLICE = 10_000
+_TEXT_WORK_CHECK = 64 * 1024 * 1024
+
+
+@dataclass(frozen=True, slots=True)
+class Site:
+    """A place of the program: its operator if it is one, and the spans of operands or arguments."""
+
+    span: Span
+    op: str = ""
+    operands: tuple[Span, ...] = ()
+    names: tuple[str, ...] = ()
+    """Names of operands that are plain variables, else ""."""
+
+
+class Runtime:
+    """Everything that built-ins and operators need to know while a program runs."""
+
+    scene: SceneObject
+    random: Pcg32
+
+    def __init__(self, program: Program, options: HostOptions) -> None:
+        self.program = program
+        self.options = options
+        self.limits = options.limits
+        self.bag = DiagnosticBag(options.language)
+        self.output: list[str] = []
+        self.globals: dict[str, object] = {}
+        self.undef = Undef(self)
+        self.live_text = 0
+        self.frame = 0
+        self.modes = RenderModes()
+        self.made_at: dict[tuple[str, Span], int] = {}
+        self._things = 0
+        self.cancelled = False
+        self.memory_error = False
+        self._steps = 0
+        self._slice = SLICE
+        self._text_work = 0
+        self._seconds_start = time.thread_time()
+        self._blocks_start = sys.getallocatedblocks()
+        self._operator_depth = 0
+        self._lines_this_frame = 0
+        self._output_cut = False
+        self._sites: dict[tuple[CodeType, int], Site] = {}
+
+    # Budget.
+
+    def ticks(self) -> Iterator[None]:
+        """The iterator that every loop of plain functions runs over; raises at a limit."""
+        return chain.from_iterable(self._slices())
+
+    def _slices(self) -> Iterator[Iterator[None]]:
+        while True:
+            yield self.next_slice()
+
+    def next_slice(self) -> Iterator[None]:
+        """Account for a slice of steps, check every limit, and hand out the next slice."""
+        self.check_limits()
+        left = self.limits.max_steps - self._steps
+        if left <= 0:
+            raise TrgError("E601", "raise_limit", limit=self.limits.max_steps)
+        self._slice = min(SLICE, left)
+        self._steps += self._slice
+        return repeat(None, self._slice)
+
+    def check_limits(self) -> None:
+        """Raise TrgError when time or memory is used up or the host has cancelled."""
+        if self.cancelled:
+            raise TrgError("E609")
+        self.check_time()
+        blocks = sys.getallocatedblocks() - self._blocks_start
+        if blocks > self.limits.max_blocks:
+            raise TrgError("E604", limit=self.limits.max_blocks)
+
+    def check_time(self) -> None:
+        if time.thread_time() - self._seconds_start > self.limits.max_seconds:
+            raise TrgError("E602", "raise_limit", limit=self.limits.max_seconds)
+
+    def begin_frame(self) -> None:
+        """Start the budget of the next frame."""
+        self._steps = 0
+        self._text_work = 0
+        self._lines_this_frame = 0
+        self._seconds_start = time.thread_time()
+
+    def hold_text(self, text: str) -> None:
+        """Count a new string; raises TrgError above the limit for one or for all."""
+        if len(text) > self.limits.max_string:
+            raise TrgError("E605", limit=self.limits.max_string)
+        size = sys.getsizeof(text) if text else 0
+        if self.live_text + size > self.limits.max_text_bytes:
+            raise TrgError("E606", limit=self.limits.max_text_bytes // (1024 * 1024))
+        self.live_text += size
+        self.work_on_text(size)
+
+    def work_on_text(self, size: int) -> None:
+        """Long texts cost time that steps do not see: look at the clock now and then."""
+        self._text_work += size
+        if self._text_work > _TEXT_WORK_CHECK:
+            self._text_work = 0
+            self.check_time()
+
+    # Places.
+
+    def site(self) -> Site | None:
+        """The place of translated code that is being run."""
+        frame = trg_frame(self.globals)
+        return None if frame is None else self.site_at(frame.f_code, frame.f_lasti)
+
+    def site_at(self, code: CodeType, last_instruction: int) -> Site:
+        """The place of an instruction, from the code object's position table."""
+        key = (code, last_instruction)
+        site = self._sites.get(key)
+        if site is None:
+            site = self._sites[key] = self._find_site(code, last_instruction)
+        return site
+
+    def _find_site(self, code: CodeType, last_instruction: int) -> Site:
+        positions = list(code.co_positions())
+        line, end_line, col, end_col = positions[max(0, last_instruction) // 2]
+        first = line or 1
+        span = Span(
+            code.co_filename, first, (col or 0) + 1, end_line or first, (end_col or 0) + 1
+        )
+        return self.program.sites.get(span) or Site(span)
+
+    # Diagnostics and output.
+
+    def warn(self, code: str, span: Span, hint: str | None = None, **values: object) -> None:
+        """One warning for each place."""
+        self.bag.add(Notice(code, span, values, hint), "warning")
+
+    def warn_undefined(self, value: object, right: object = None) -> None:
+        """Warn that a variable without a value counted as 0, at the variable where it is known."""
+        site = self.site()
+        if site is None:
+            return
+        span = site.span
+        if site.operands:
+            frame_side = 1 if value is right and len(site.operands) > 1 else 0
+            span = site.operands[frame_side]
+        self.warn("W701", span)
+
+    def write_line(self, text: str) -> None:
+        """Add a line to the output, within the limits; the first line too many says so."""
+        limits = self.limits
+        self.work_on_text(len(text))
+        if len(text) > limits.output_columns:
+            text = text[: limits.output_columns] + " ..."
+        if self._output_cut or self._lines_this_frame > limits.output_lines_frame:
+            return
+        self._lines_this_frame += 1
+        over = self._lines_this_frame > limits.output_lines_frame
+        self._output_cut = len(self.output) >= limits.output_lines
+        self.output.append("output cut" if over or self._output_cut else text)
+
+    # Values and calls.
+
+    def count_thing(self) -> None:
+        """Count a shape or light; raises TrgError above the limit."""
+        self._things += 1
+        if self._things > self.limits.max_shapes:
+            raise TrgError("E610", limit=self.limits.max_shapes)
+
+    def text(self, text: str) -> Str:
+        return Str(self, text)
+
+    def new_object(self) -> Obj:
+        return Obj(self)
+
+    def step_operator(self) -> str:
+        """`++` or `--` when that is the operator being run, else an empty string."""
+        site = self.site()
+        return site.op if site is not None and site.op in ("++", "--") else ""
+
+    def call_overload(self, function: object, *operands: object) -> object:
+        """Call an operator field with its operands; it can neither suspend nor nest too deeply."""
+        if not callable(function):
+            raise TrgError("E416")
+        if self._operator_depth >= MAX_OPERATOR_DEPTH:
+            raise TrgError("E608", limit=MAX_OPERATOR_DEPTH)
+        frame = trg_frame(self.globals)
+        self._operator_depth += 1
+        try:
+            result = function(_depth_of(frame) + 1, *operands)
+        finally:
+            self._operator_depth -= 1
+        if type(result) is GeneratorType:
+            result.close()
+            raise TrgError("E415")
+        return result
+
+    def compare(self, op: str, left: object, right: object) -> object:
+        """A comparison in a program that overloads comparisons."""
+        overload = overload_of(left, op) or overload_of(right, op)
+        if overload is not None:
+            return self.call_overload(overload, left, right)
+        if op == "!=":
+            equal = overload_of(left, "==") or overload_of(right, "==")
+            if equal is not None:
+                return not self.call_overload(equal, left, right)
+        return COMPARISON[op](left, right)
+
+    def logical_not(self, value: object) -> object:
+        """`!value` in a program that overloads it."""
+        overload = overload_of(value, "!")
+        if overload is None:
+            return 0.0 if value else 1.0
+        return self.call_overload(overload, value)
+
+
+def _depth_of(frame: FrameType | None) -> int:
+    if frame is None:
+        return 0
+    depth = frame.f_locals.get("d_", 0)
+    return depth if isinstance(depth, int) else MAX_CALL_DEPTH

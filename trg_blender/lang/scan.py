@@ -1,0 +1,162 @@
+"""The scanner: a source text becomes a list of tokens."""
+
+from __future__ import annotations
+
+import math
+import re
+import unicodedata
+from typing import NamedTuple
+
+from .diagnostics import DiagnosticBag, Notice
+from .source import SourceFile, Span
+
+KEYWORDS = frozenset(
+    "if else while for switch case default break continue return function operator".split()
+)
+RESERVED_WORDS = {"in": "reserved", "true": "write_1", "false": "write_0"}
+MAX_NUMBER_LENGTH = 64
+ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "0": "\0", '"': '"', "\\": "\\"}
+
+# The string and comment alternatives are unrolled: the short forms need a backtracking entry for
+# every character, hundreds of megabytes for one long literal.
+_TOKEN = re.compile(
+    r"""
+    (?P<space>[ \t\n\f\v]+)
+  | (?P<comment>//[^\n]*|/\*[^*]*\*+(?:[^/*][^*]*\*+)*/)
+  | (?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)
+  | (?P<string>"[^"\\\n]*(?:\\.[^"\\\n]*)*")
+  | (?P<name>[^\W\d]\w*)
+  | (?P<op>\+\+|--|[-+*/%=!<>]=|&&|\|\||::|[-+*/%=!<>\#~(){},;.:])
+    """,
+    re.VERBOSE,
+)
+_QUOTED = re.compile(r"'[^'\n]*'?")
+_REST_OF_NAME = re.compile(r"\w+")
+_ESCAPE = re.compile(r"\\(.)")
+_CHARACTER_HINTS = {
+    "'": "double_quotes",
+    "&": "write_and",
+    "|": "write_or",
+    "?": "no_conditional",
+    "[": "reserved",
+    "]": "reserved",
+    "@": "reserved",
+    "$": "reserved",
+    "^": "write_pow",
+}
+
+
+class Token(NamedTuple):
+    """`kind` is name, keyword, number, string, op or end; `text` as written (names in NFC)."""
+
+    kind: str
+    text: str
+    value: float | str
+    span: Span
+
+
+class _Scanner:
+    def __init__(self, source: SourceFile, bag: DiagnosticBag) -> None:
+        self.source = source
+        self.bag = bag
+        self.tokens: list[Token] = []
+        self.line = 1
+        self.line_start = 0
+
+    def run(self) -> list[Token]:
+        text, position, end = self.source.text, 0, len(self.source.text)
+        while position < end:
+            match = _TOKEN.match(text, position)
+            if match is None:
+                position = self._skip_unknown(position)
+            else:
+                position = self._take(match)
+        self.tokens.append(Token("end", "", "", self._span(end, end)))
+        return self.tokens
+
+    def _take(self, match: re.Match[str]) -> int:
+        kind, start, end = match.lastgroup or "", match.start(), match.end()
+        if kind in ("space", "comment"):
+            self._count_lines(start, end)
+        elif kind == "name":
+            self._take_name(match.group(), start, end)
+        elif kind == "number":
+            return self._take_number(match.group(), start, end)
+        elif kind == "string":
+            self._take_string(match.group(), start, end)
+        else:
+            self.tokens.append(Token("op", match.group(), "", self._span(start, end)))
+        return end
+
+    def _take_name(self, text: str, start: int, end: int) -> None:
+        name = text if text.isascii() else unicodedata.normalize("NFC", text)
+        kind = "keyword" if name in KEYWORDS else "name"
+        if name in RESERVED_WORDS:
+            self._error("E107", start, end, RESERVED_WORDS[name], name=name)
+        self.tokens.append(Token(kind, name, name, self._span(start, end)))
+
+    def _take_number(self, text: str, start: int, end: int) -> int:
+        rest = _REST_OF_NAME.match(self.source.text, end)
+        if rest is not None:
+            self._error("E101", end, end + 1, "split_number")
+            end = rest.end()
+        value = 0.0
+        if len(text) > MAX_NUMBER_LENGTH:
+            self._error("E103", start, end, None, limit=MAX_NUMBER_LENGTH)
+        else:
+            value = float(text)
+        if math.isinf(value):
+            self._error("E102", start, end)
+            value = 0.0
+        self.tokens.append(Token("number", text, value, self._span(start, end)))
+        return end
+
+    def _take_string(self, text: str, start: int, end: int) -> None:
+        body = text[1:-1]
+        if "\\" in body:
+            for found in _ESCAPE.finditer(body):
+                if found.group(1) not in ESCAPES:
+                    at = start + 1 + found.start()
+                    self._error("E105", at, at + 2, "double_backslash", text=found.group())
+            body = _ESCAPE.sub(lambda m: ESCAPES.get(m.group(1), m.group()), body)
+        self.tokens.append(Token("string", text, body, self._span(start, end)))
+
+    def _skip_unknown(self, start: int) -> int:
+        text = self.source.text
+        character = text[start]
+        if character == '"':
+            end = text.find("\n", start)
+            end = len(text) if end < 0 else end
+            self._error("E104", start, end, "close_string")
+            self.tokens.append(Token("string", text[start:end], "", self._span(start, end)))
+            return end
+        if text.startswith("/*", start):
+            self._error("E106", start, start + 2)
+            self._count_lines(start, len(text))
+            return len(text)
+        end = start + 1
+        if character == "'":
+            end = _QUOTED.match(text, start).end()  # type: ignore[union-attr]
+        shown = character if character.isprintable() else f"U+{ord(character):04X}"
+        self._error("E100", start, start + 1, _CHARACTER_HINTS.get(character), text=shown)
+        return end
+
+    def _count_lines(self, start: int, end: int) -> None:
+        newlines = self.source.text.count("\n", start, end)
+        if newlines:
+            self.line += newlines
+            self.line_start = self.source.text.rfind("\n", start, end) + 1
+
+    def _span(self, start: int, end: int) -> Span:
+        first = start - self.line_start + 1
+        return Span(self.source.name, self.line, first, self.line, first + end - start)
+
+    def _error(
+        self, code: str, start: int, end: int, hint: str | None = None, **values: object
+    ) -> None:
+        self.bag.add(Notice(code, self._span(start, end), values, hint))
+
+
+def scan_source(source: SourceFile, bag: DiagnosticBag) -> list[Token]:
+    """The tokens of `source`, closed by one of kind `end`. Errors go to `bag`; scanning goes on."""
+    return _Scanner(source, bag).run()
