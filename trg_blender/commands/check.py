@@ -1,0 +1,50 @@
+"""`trg check`: the diagnostics of a program that is not run."""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+import json
+import sys
+from pathlib import Path
+
+from ..lang import (
+    Diagnostic,
+    DiskFiles,
+    ProgramError,
+    SourceFile,
+    compile_source,
+    render_diagnostic,
+)
+from .run import DONE, WRONG, diagnostic_object, read_program
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Add `check` to the command line."""
+    parser = subparsers.add_parser(
+        "check", help="diagnostics of a TRG program", description="Finds errors without running."
+    )
+    parser.add_argument("file", metavar="FILE.trg")
+    parser.add_argument("--json", action="store_true", help="print one JSON object")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Exit code 1 when there is an error, else 0. OSError when the file cannot be read."""
+    name, text = read_program(args.file)
+    sources = {name: SourceFile.from_text(name, text)}
+    try:
+        program = compile_source(text, name, DiskFiles(Path(args.file).resolve().parent))
+        diagnostics, sources = program.diagnostics, program.sources
+    except ProgramError as error:
+        diagnostics = error.diagnostics
+    if args.json:
+        found = {"diagnostics": [diagnostic_object(d) for d in diagnostics]}
+        sys.stdout.write(json.dumps(found, ensure_ascii=False) + "\n")
+    else:
+        sys.stdout.writelines(render_diagnostic(_shown(d), sources) + "\n" for d in diagnostics)
+    return WRONG if any(d.severity == "error" for d in diagnostics) else DONE
+
+
+def _shown(d: Diagnostic) -> Diagnostic:
+    """The command line knows errors and warnings only: a lint is shown as a warning."""
+    return dataclasses.replace(d, severity="warning") if d.severity == "lint" else d
