@@ -17,8 +17,6 @@ from .text_files import TextFiles
 RUN_AHEAD_SECONDS = 120.0
 """How long a jump to a later frame may take before the program counts as out of budget."""
 MAX_LOG_LINES = 10_000
-BUDGET_CODES = "E6"
-"""Diagnostics whose code begins so come from a limit."""
 
 EXIT_WRONG = 1
 EXIT_BUDGET = 3
@@ -76,18 +74,13 @@ class ProgramRunner:
         try:
             self._compile(text)
             self._advance(scene, frame)
-            if self._last is None:
-                failure = ProgramFailure(
-                    f"{text.name}: error: the program ended before its first Scene.Render()"
-                )
-            else:
-                mirror = SceneMirror(scene, self._planner)
-                counts = mirror.apply(self._last)
-                self._say(mirror.warnings)
+            mirror = SceneMirror(scene, self._planner)
+            counts = mirror.apply(self._scene_to_show(text))
+            self._say(mirror.warnings)
+        except _Failed as failed:
+            failure = failed.failure
         except lang.ProgramError as error:
-            failure = self._failure_of(error)
-        except _OutOfTime as error:
-            failure = ProgramFailure(f"{text.name}: error: {error}", EXIT_BUDGET)
+            failure = self._failure_of(error.diagnostics)
         except errors.SceneError as error:
             failure = ProgramFailure(str(error))
         finally:
@@ -108,23 +101,36 @@ class ProgramRunner:
         self._digest = digest
         self._files = TextFiles(text)
         self._own_source = lang.SourceFile.from_text(text.name, source)
-        self._program = lang.compile_source(source, text.name, self._files)
+        self._program = lang.compile_source(source, text.name, self._files, message_language())
+        self._say([self._shown(lint) for lint in self._program.diagnostics])
 
     def _advance(self, scene: bpy.types.Scene, frame: int) -> None:
-        """Let the program run to its `frame`-th Render() or to its end. Raises ProgramError."""
+        """Let the program run to its `frame`-th Render() or to its end. Raises _Failed."""
         if self._session is None or frame < self._frame:
             self._restart()
             self._session = lang.Session(self._program, host_options(scene))
         deadline = time.monotonic() + RUN_AHEAD_SECONDS
         while self._frame < frame and not self._ended:
             event = self._session.next_frame()
-            if isinstance(event, lang.EndEvent):
-                self._ended = True
-            else:
+            if isinstance(event, lang.FrameEvent):
                 self._frame += 1
                 self._last = event.scene
+            elif isinstance(event, lang.EndEvent):
+                self._ended = True
+                if event.error is not None:
+                    raise _Failed(self._failure_of((event.error,), event.out_of_budget))
             if self._frame < frame and time.monotonic() > deadline:
-                raise _OutOfTime(self._frame, frame)
+                late = (
+                    f"frame {frame} was not reached within {RUN_AHEAD_SECONDS:g} s, only frame {self._frame}"
+                )
+                raise _Failed(ProgramFailure(f"{self._program.main}: error: {late}", EXIT_BUDGET))
+
+    def _scene_to_show(self, text: bpy.types.Text) -> lang.SceneDescription:
+        """The program's last frame. Raises _Failed when it ended without one."""
+        if self._last is None:
+            message = "error: the program ended before its first Scene.Render()"
+            raise _Failed(ProgramFailure(f"{text.name}: {message}"))
+        return self._last
 
     def _restart(self) -> None:
         self._session = None
@@ -151,23 +157,30 @@ class ProgramRunner:
             sources[self._own_source.name] = self._own_source
         return lang.render_diagnostic(diagnostic, sources)
 
-    def _failure_of(self, error: lang.ProgramError) -> ProgramFailure:
-        errors = [d for d in error.diagnostics if d.severity == "error"]
-        over_budget = bool(errors) and all(d.code.startswith(BUDGET_CODES) for d in errors)
-        text = "\n".join(self._shown(d) for d in errors)
-        return ProgramFailure(text, EXIT_BUDGET if over_budget else EXIT_WRONG, tuple(error.diagnostics))
+    def _failure_of(
+        self, diagnostics: tuple[lang.Diagnostic, ...], out_of_budget: bool = False
+    ) -> ProgramFailure:
+        found = tuple(d for d in diagnostics if d.severity == "error")
+        text = "\n".join(self._shown(d) for d in found)
+        return ProgramFailure(text, EXIT_BUDGET if out_of_budget else EXIT_WRONG, found)
 
 
-class _OutOfTime(Exception):
-    """The frame was not reached in RUN_AHEAD_SECONDS."""
+class _Failed(Exception):
+    """Carries a failure to the one place that keeps it."""
 
-    def __init__(self, reached: int, wanted: int) -> None:
-        super().__init__(
-            f"frame {wanted} was not reached within {RUN_AHEAD_SECONDS:g} s, only frame {reached}"
-        )
+    def __init__(self, failure: ProgramFailure) -> None:
+        super().__init__(failure.text)
+        self.failure = failure
+
+
+def message_language() -> str:
+    """Language of diagnostics: that of Blender's interface where TRG speaks it."""
+    return "ru" if bpy.app.translations.locale.startswith("ru") else "en"
 
 
 def host_options(scene: bpy.types.Scene) -> lang.HostOptions:
     """std::frames() counts the timeline, std::fps() is the scene's."""
     frames = max(scene.frame_end - scene.frame_start + 1, 1)
-    return lang.HostOptions(frames=frames, fps=scene.render.fps / scene.render.fps_base)
+    return lang.HostOptions(
+        frames=frames, fps=scene.render.fps / scene.render.fps_base, language=message_language()
+    )
