@@ -28,7 +28,7 @@ Tree = function( foot ~ "vec3", size ~ "num", depth ~ "num" )
     for (k = 0; k < 3; k++)
     {
         angle = #mth::Degree2Radian(k * 120 + depth * 40);
-        branch = #vec3(#mth::cos(angle), 0, #mth::sin(angle)) * size * 0.55;
+        branch = #vec3(#mth::cos(angle), 0, #mth::sin(angle)) * size * 0.3;
         #Tree(top + branch, size * 0.6, depth - 1);
     }
 };
@@ -40,7 +40,7 @@ Scene.Add(dir_light(vec3(-3, 6, 4), vec3(1, 0.97, 0.9)));
 for (frame = 0; frame < 12; frame++)
 {
     angle = mth::Degree2Radian(30 * frame);
-    Scene.CamSet(800, 600, vec3(11 * mth::sin(angle), 6.5, 11 * mth::cos(angle)),
+    Scene.CamSet(800, 600, vec3(10 * mth::sin(angle), 6, 10 * mth::cos(angle)),
                 vec3(0, 2.4, 0), vec3(0, 1, 0));
     Scene.Render();
 }

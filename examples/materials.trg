@@ -22,5 +22,5 @@ Row(0, material::glass(1.5), material::mirror(), lacquer, steel,
     material::emission(vec3(1, 0.6, 0.2), 3));
 
 Scene.Add(dir_light(vec3(-4, 7, 6), vec3(1, 1, 1)));
-Scene.CamSet(960, 400, vec3(0, 4.5, 9), vec3(0, 0.8, -1), vec3(0, 1, 0));
+Scene.CamSet(960, 400, vec3(0, 4.5, 9), vec3(0, 0.8, -1), vec3(0, 1, 0), 33);
 Scene.Render();
