@@ -16,7 +16,7 @@ from typing import NoReturn
 from . import __version__
 
 DONE, WRONG, USAGE, CANCELLED, UNAVAILABLE = range(5)
-"""Exit codes: done; the program or scene is wrong; usage; cancelled or out of budget; something is missing."""
+"""Exit codes: done; the program or scene is wrong; usage; cancelled or out of budget; something missing."""
 
 COMMANDS = {
     "render": "render a TRG program or a .blend file to a picture",

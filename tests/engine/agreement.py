@@ -50,9 +50,11 @@ class Agreement:
         return self.worst_picture < PICTURE_LIMIT and self.worst_block < self.block_limit
 
     def __str__(self) -> str:
-        return (f"picture |z| {self.worst_picture:.2f} (< 3), block |z| {self.worst_block:.2f} "
-                f"(< {self.block_limit:.2f}), difference {100 * np.abs(self.difference).max():.2f} %, "
-                f"resolves {100 * self.resolution:.2f} %")
+        return (
+            f"picture |z| {self.worst_picture:.2f} (< 3), block |z| {self.worst_block:.2f} "
+            f"(< {self.block_limit:.2f}), difference {100 * np.abs(self.difference).max():.2f} %, "
+            f"resolves {100 * self.resolution:.2f} %"
+        )
 
 
 def compare(first, second, block: int = 8) -> Agreement:
@@ -63,8 +65,12 @@ def compare(first, second, block: int = 8) -> Agreement:
     picture_z, error = _scores(*picture)
     means = [one.mean(axis=0)[0] for one in picture]
     brighter = np.maximum(np.maximum(*means), 1e-6)
-    return Agreement(picture_z[0], _scores(*blocks)[0], (means[0] - means[1]) / brighter,
-                     float((3.0 * error[0] / brighter).max()))
+    return Agreement(
+        picture_z[0],
+        _scores(*blocks)[0],
+        (means[0] - means[1]) / brighter,
+        float((3.0 * error[0] / brighter).max()),
+    )
 
 
 def _block_means(result, size: tuple[int, int]) -> np.ndarray:
@@ -73,7 +79,7 @@ def _block_means(result, size: tuple[int, int]) -> np.ndarray:
     means = result.replicate_sums[used] / result.replicate_counts[used][:, None, None, None]
     count, height, width, _ = means.shape
     rows, columns = height // size[0], width // size[1]
-    cut = means[:, :rows * size[0], :columns * size[1]].reshape(count, rows, size[0], columns, size[1], 3)
+    cut = means[:, : rows * size[0], : columns * size[1]].reshape(count, rows, size[0], columns, size[1], 3)
     return cut.mean(axis=(2, 4)).reshape(count, rows * columns, 3)
 
 
@@ -85,7 +91,8 @@ def _scores(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarr
     error = np.sqrt(sum(variances) + rounding)
     degrees = (sum(variances) + rounding) ** 2 / sum(
         (variance + 0.5 * rounding) ** 2 / (len(one) - 1)
-        for variance, one in zip(variances, (first, second), strict=True))
+        for variance, one in zip(variances, (first, second), strict=True)
+    )
     return student_to_normal((means[0] - means[1]) / error, degrees), error
 
 

@@ -16,8 +16,14 @@ Case = tuple[SceneArrays, RenderSettings]
 SIZE = 16
 SETTINGS = RenderSettings(SIZE, SIZE, samples=512, seed=5, max_bounces=4)
 GREY = Material(0.7, 0.6, 0.5, specular=0.0)
-KEY = light("area_rectangle", (9, 8, 7), (1.5, -1.0, 3.0), direction=(-0.4, 0.3, -1.0), axis_u=(0.6, 0, -0.24),
-            axis_v=(0, 0.5, 0.15))
+KEY = light(
+    "area_rectangle",
+    (9, 8, 7),
+    (1.5, -1.0, 3.0),
+    direction=(-0.4, 0.3, -1.0),
+    axis_u=(0.6, 0, -0.24),
+    axis_v=(0, 0.5, 0.15),
+)
 
 
 def studio(subject: Material, *lights: Light, world=(0.1, 0.15, 0.2)) -> SceneArrays:
@@ -55,25 +61,61 @@ LIGHTS = {
     "point": light("point", (3, 2, 2), (0.9, 0.6, 1.6)),
     "point_sphere": light("point", (3, 2, 2), (0.9, 0.6, 1.6), radius=0.4),
     "point_falloff": light("point", (2, 2, 3), (0.9, 0.6, 1.6), falloff=(0.5, 0.2, 0.3)),
-    "spot": light("spot", (6, 5, 5), (1.5, -1.5, 2.5), direction=(-0.6, 0.6, -1.0), cos_outer=0.85, cos_inner=0.95),
-    "spot_sphere": light("spot", (6, 5, 5), (1.5, -1.5, 2.5), direction=(-0.6, 0.6, -1.0), radius=0.3,
-                         cos_outer=0.85, cos_inner=0.95),
-    "spot_falloff": light("spot", (4, 5, 5), (1.5, -1.5, 2.5), direction=(-0.6, 0.6, -1.0), falloff=(1.0, 0.0, 0.1),
-                          cos_outer=0.85, cos_inner=0.95),
+    "spot": light(
+        "spot", (6, 5, 5), (1.5, -1.5, 2.5), direction=(-0.6, 0.6, -1.0), cos_outer=0.85, cos_inner=0.95
+    ),
+    "spot_sphere": light(
+        "spot",
+        (6, 5, 5),
+        (1.5, -1.5, 2.5),
+        direction=(-0.6, 0.6, -1.0),
+        radius=0.3,
+        cos_outer=0.85,
+        cos_inner=0.95,
+    ),
+    "spot_falloff": light(
+        "spot",
+        (4, 5, 5),
+        (1.5, -1.5, 2.5),
+        direction=(-0.6, 0.6, -1.0),
+        falloff=(1.0, 0.0, 0.1),
+        cos_outer=0.85,
+        cos_inner=0.95,
+    ),
     "rectangle": KEY,
-    "ellipse": light("area_ellipse", (9, 8, 7), (0.3, -0.4, 1.9), direction=(0, 0, -1), axis_u=(0.6, 0, 0),
-                     axis_v=(0.1, 0.3, 0)),
+    "ellipse": light(
+        "area_ellipse",
+        (9, 8, 7),
+        (0.3, -0.4, 1.9),
+        direction=(0, 0, -1),
+        axis_u=(0.6, 0, 0),
+        axis_v=(0.1, 0.3, 0),
+    ),
 }
 
 
 def _textured() -> SceneArrays:
-    scene = studio(Material(roughness_texture=1, metallic_texture=2, base_texture=0, emission_texture=3,
-                            emission_r=0.5, emission_g=0.5, emission_b=0.5))
+    scene = studio(
+        Material(
+            roughness_texture=1,
+            metallic_texture=2,
+            base_texture=0,
+            emission_texture=3,
+            emission_r=0.5,
+            emission_g=0.5,
+            emission_b=0.5,
+        )
+    )
     rng = np.random.default_rng(3)
     floats = checker(3, srgb=False)
     floats.pixels = rng.random((3, 5, 1)).astype(np.float32)
     scene.images = [checker(), floats]
-    scene.textures = [Texture(0, 2.0, 3.0, 0.1, 0.2), Texture(1, wrap=1, scale_u=1.3), Texture(1), Texture(0, wrap=1)]
+    scene.textures = [
+        Texture(0, 2.0, 3.0, 0.1, 0.2),
+        Texture(1, wrap=1, scale_u=1.3),
+        Texture(1),
+        Texture(0, wrap=1),
+    ]
     scene.materials[0] = replace(GREY, base_texture=1)
     return scene
 
@@ -89,7 +131,9 @@ def _mirrored_and_squashed() -> SceneArrays:
 def _many_copies() -> SceneArrays:
     scene = studio(MATERIALS["plastic"])
     for index in range(25):
-        scene.instances.append(place(2, 1, (index % 5 * 0.5 - 1, index // 5 * 0.5 - 1, 0.1), linear=np.eye(3) * 0.2))
+        scene.instances.append(
+            place(2, 1, (index % 5 * 0.5 - 1, index // 5 * 0.5 - 1, 0.1), linear=np.eye(3) * 0.2)
+        )
     return scene
 
 
@@ -116,8 +160,12 @@ def _all_lights() -> SceneArrays:
 
 def _many_lights() -> SceneArrays:
     rng = np.random.default_rng(1)
-    bulbs = [light("point", tuple(rng.random(3)), (*rng.uniform(-2, 2, 2), rng.uniform(1.2, 3)), radius=0.1 * (k % 3))
-             for k in range(12)]
+    bulbs = [
+        light(
+            "point", tuple(rng.random(3)), (*rng.uniform(-2, 2, 2), rng.uniform(1.2, 3)), radius=0.1 * (k % 3)
+        )
+        for k in range(12)
+    ]
     return studio(MATERIALS["plastic"], *bulbs)
 
 
@@ -145,7 +193,10 @@ def cases() -> dict[str, Case]:
         found[name] = (scene, replace(SETTINGS, samples=128) if len(scene.lights) > 5 else SETTINGS)
     found["direct_light_only"] = (studio(MATERIALS["metal"]), replace(SETTINGS, max_bounces=0))
     found["one_bounce"] = (studio(MATERIALS["glass"]), replace(SETTINGS, max_bounces=1))
-    found["border"] = (studio(MATERIALS["plastic"]), replace(SETTINGS, width=32, height=24, border=(7, 4, 23, 20)))
+    found["border"] = (
+        studio(MATERIALS["plastic"]),
+        replace(SETTINGS, width=32, height=24, border=(7, 4, 23, 20)),
+    )
     furnace = studio(Material(0.8, 0.8, 0.8), light("sun", (0, 0, 0)), world=(1, 1, 1))
     found["furnace"] = (furnace, SETTINGS)
     return found

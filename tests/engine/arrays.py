@@ -21,8 +21,9 @@ def quad(half: float = 1.0, height: float = 0.0, origin: str = "Quad") -> MeshAr
     """A square across z that faces +z, with the unit square as uvs."""
     vertices = [[-half, -half, height], [half, -half, height], [half, half, height], [-half, half, height]]
     uvs = np.array([[[0, 0], [1, 0], [1, 1]], [[0, 0], [1, 1], [0, 1]]], dtype=np.float32)
-    return MeshArrays(np.array(vertices, np.float32), np.array([[0, 1, 2], [0, 2, 3]], np.int32), uvs=uvs,
-                      origin=origin)
+    return MeshArrays(
+        np.array(vertices, np.float32), np.array([[0, 1, 2], [0, 2, 3]], np.int32), uvs=uvs, origin=origin
+    )
 
 
 def box(half: float = 0.5, origin: str = "Box") -> MeshArrays:
@@ -37,7 +38,9 @@ def ball(radius: float = 0.5, rings: int = 12, smooth: bool = True) -> MeshArray
     """A sphere of latitude and longitude, facing outwards, with uvs."""
     u, v = np.meshgrid(np.linspace(0, 1, 2 * rings + 1), np.linspace(0, 1, rings + 1))
     theta, phi = np.pi * (1.0 - v), 2.0 * np.pi * u
-    points = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], -1).reshape(-1, 3)
+    points = np.stack([np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta)], -1).reshape(
+        -1, 3
+    )
     across = 2 * rings + 1
     triangles = []
     for row in range(rings):
@@ -52,12 +55,16 @@ def ball(radius: float = 0.5, rings: int = 12, smooth: bool = True) -> MeshArray
     return MeshArrays((radius * points).astype(np.float32), index, normals, uvs, origin="Ball")
 
 
-def place(mesh: int, material: int = 0, at: tuple[float, float, float] = (0, 0, 0), **kwargs) -> InstanceArrays:
+def place(
+    mesh: int, material: int = 0, at: tuple[float, float, float] = (0, 0, 0), **kwargs
+) -> InstanceArrays:
     """One copy of mesh number `mesh`; `linear` (3, 3) turns and scales it."""
     transform = IDENTITY.copy()
     transform[0, :, :3] = kwargs.get("linear", np.eye(3))
     transform[0, :, 3] = at
-    return InstanceArrays(mesh, transform, np.array([material], np.int32), origin=kwargs.get("origin", "Thing"))
+    return InstanceArrays(
+        mesh, transform, np.array([material], np.int32), origin=kwargs.get("origin", "Thing")
+    )
 
 
 def light(kind: str, color: tuple[float, float, float], position=(0, 0, 0), **fields) -> Light:
@@ -99,5 +106,11 @@ def checker(size: int = 4, srgb: bool = True) -> ImageArrays:
 
 def floor_scene(material, *lights: Light, world=(0.0, 0.0, 0.0)) -> SceneArrays:
     """A square of 8 m across z = 0, seen from 3 m above its middle."""
-    return SceneArrays(look_at((0, 0, 3), (0, 0, 0), 0.2), [quad(4.0)], [place(0)], [material], lights=list(lights),
-                       world=world)
+    return SceneArrays(
+        look_at((0, 0, 3), (0, 0, 0), 0.2),
+        [quad(4.0)],
+        [place(0)],
+        [material],
+        lights=list(lights),
+        world=world,
+    )

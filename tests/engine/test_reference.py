@@ -76,7 +76,8 @@ def test_a_closed_glass_box_in_a_furnace_is_invisible():
 def test_a_sun_gives_irradiance_times_cosine():
     direction = np.array([0.3, 0.4, 1.2]) / 1.3
     assert irradiance(light("sun", (2.0, 1.0, 0.5), direction=direction)) == pytest.approx(
-        np.array([2.0, 1.0, 0.5]) * direction[2], rel=1e-6)
+        np.array([2.0, 1.0, 0.5]) * direction[2], rel=1e-6
+    )
 
 
 def test_a_sun_with_angle_gives_the_same_irradiance():
@@ -114,21 +115,39 @@ def parallel_rectangle(a: float, b: float, h: float) -> float:
 
 
 def test_a_rectangle_gives_its_form_factor():
-    lamp = light("area_rectangle", (2.0, 1.0, 0.5), (0, 0, 1.2), direction=(0, 0, -1), axis_u=(0.7, 0, 0),
-                 axis_v=(0, 0.4, 0))
+    lamp = light(
+        "area_rectangle",
+        (2.0, 1.0, 0.5),
+        (0, 0, 1.2),
+        direction=(0, 0, -1),
+        axis_u=(0.7, 0, 0),
+        axis_v=(0, 0.4, 0),
+    )
     expected = math.pi * parallel_rectangle(0.7, 0.4, 1.2) * np.array([2.0, 1.0, 0.5])
     assert irradiance(lamp) == pytest.approx(expected, rel=5e-3)
 
 
 def test_an_area_light_is_dark_behind():
-    lamp = light("area_rectangle", (2.0, 1.0, 0.5), (0, 0, 1.2), direction=(0, 0, 1), axis_u=(0.7, 0, 0),
-                 axis_v=(0, 0.4, 0))
+    lamp = light(
+        "area_rectangle",
+        (2.0, 1.0, 0.5),
+        (0, 0, 1.2),
+        direction=(0, 0, 1),
+        axis_u=(0.7, 0, 0),
+        axis_v=(0, 0.4, 0),
+    )
     assert irradiance(lamp) == pytest.approx(0.0, abs=1e-12)
 
 
 def test_a_disc_gives_its_form_factor():
-    lamp = light("area_ellipse", (2.0, 1.0, 0.5), (0, 0, 1.2), direction=(0, 0, -1), axis_u=(0.7, 0, 0),
-                 axis_v=(0, 0.7, 0))
+    lamp = light(
+        "area_ellipse",
+        (2.0, 1.0, 0.5),
+        (0, 0, 1.2),
+        direction=(0, 0, -1),
+        axis_u=(0.7, 0, 0),
+        axis_v=(0, 0.7, 0),
+    )
     expected = math.pi * 0.49 / (0.49 + 1.44) * np.array([2.0, 1.0, 0.5])
     assert irradiance(lamp) == pytest.approx(expected, rel=5e-3)
 
@@ -173,8 +192,9 @@ def test_light_may_scatter_once_more_than_max_bounces(bounces: int, seen: bool):
 def test_a_texel_lies_at_its_centre_and_is_interpolated():
     """A pixel that covers one texel of the middle sees 1/8, 6/8, 1/8 of the row."""
     values = np.random.default_rng(2).random((4, 4, 3)).astype(np.float32)
-    scene = floor_scene(Material(0, 0, 0, specular=0.0, emission_r=1, emission_g=1, emission_b=1,
-                                 emission_texture=0))
+    scene = floor_scene(
+        Material(0, 0, 0, specular=0.0, emission_r=1, emission_g=1, emission_b=1, emission_texture=0)
+    )
     scene.images, scene.textures = [ImageArrays(values, srgb=False)], [Texture(0)]
     scene.camera = look_at((0, 0, 3), (0, 0, 0), 4.0, kind=1)
     found = picture(scene, RenderSettings(4, 4, 4096))
@@ -184,8 +204,9 @@ def test_a_texel_lies_at_its_centre_and_is_interpolated():
 
 
 def test_a_byte_texture_is_made_linear():
-    scene = floor_scene(Material(0, 0, 0, specular=0.0, emission_r=1, emission_g=1, emission_b=1,
-                                 emission_texture=0))
+    scene = floor_scene(
+        Material(0, 0, 0, specular=0.0, emission_r=1, emission_g=1, emission_b=1, emission_texture=0)
+    )
     scene.images = [ImageArrays(np.full((1, 1, 3), 188, np.uint8))]
     scene.textures = [Texture(0)]
     assert center(scene) == pytest.approx(0.5028864, rel=1e-5)
@@ -215,8 +236,12 @@ def test_clipped_surfaces_are_not_seen():
 
 
 def test_equal_seeds_give_equal_pictures_and_other_seeds_other_ones():
-    scene = floor_scene(WHITE, light("area_rectangle", (1, 1, 1), (0, 0, 1), direction=(0, 0, -1),
-                                     axis_u=(1, 0, 0), axis_v=(0, 1, 0)))
+    scene = floor_scene(
+        WHITE,
+        light(
+            "area_rectangle", (1, 1, 1), (0, 0, 1), direction=(0, 0, -1), axis_u=(1, 0, 0), axis_v=(0, 1, 0)
+        ),
+    )
     first, again = picture(scene), picture(scene)
     other = picture(scene, RenderSettings(8, 8, samples=256, max_bounces=4, seed=1))
     assert np.array_equal(first, again)

@@ -24,13 +24,21 @@ def make_bsdf(count: int, view, outside: bool = True, **values) -> Bsdf:
     full = {"metallic": 0.0, "alpha": 0.2, "ior": 1.5, "specular": 1.0, "transmission": 0.0, **values}
     columns = {name: np.full(count, float(value)) for name, value in full.items()}
     base = np.tile([0.9, 0.6, 0.3], (count, 1))
-    material = Material(base, columns["metallic"], columns["alpha"], columns["ior"], columns["specular"],
-                        columns["transmission"], np.zeros((count, 3)))
+    material = Material(
+        base,
+        columns["metallic"],
+        columns["alpha"],
+        columns["ior"],
+        columns["specular"],
+        columns["transmission"],
+        np.zeros((count, 3)),
+    )
     wo = np.tile(normalize(np.array(view, float)), (count, 1))
     ng = np.tile([0.0, 0.0, 1.0], (count, 1))
     ns = np.tile(normalize(np.array([0.1, 0.05, 1.0])), (count, 1))
-    return build_bsdf(Surface(np.zeros((count, 3)), wo, ng, ns, np.full(count, outside), material,
-                              np.full(count, 1e-6)))
+    return build_bsdf(
+        Surface(np.zeros((count, 3)), wo, ng, ns, np.full(count, outside), material, np.full(count, 1e-6))
+    )
 
 
 def sphere_grid(rows: int) -> np.ndarray:
@@ -50,9 +58,14 @@ def test_samples_weigh_what_the_integral_of_the_values_gives(mixture: str, view:
     grid = make_bsdf(len(directions), VIEWS[view], outside, **MIXTURES[mixture])
     value, pdf = evaluate_bsdf(grid, directions)
     solid_angle = 4.0 * np.pi / len(directions)
-    sampled = sample_bsdf(make_bsdf(200_000, VIEWS[view], outside, **MIXTURES[mixture]), np.random.default_rng(1))
+    sampled = sample_bsdf(
+        make_bsdf(200_000, VIEWS[view], outside, **MIXTURES[mixture]), np.random.default_rng(1)
+    )
     spread = sampled.weight.std(axis=0) / np.sqrt(len(sampled.weight))
-    assert np.abs(sampled.weight.mean(axis=0) - value.sum(axis=0) * solid_angle).max() < 4.0 * spread.max() + 2e-3
+    assert (
+        np.abs(sampled.weight.mean(axis=0) - value.sum(axis=0) * solid_angle).max()
+        < 4.0 * spread.max() + 2e-3
+    )
     # The density misses only what goes below the surface and is thrown away.
     assert pdf.sum() * solid_angle < 1.003
     kept = (sampled.pdf > 0.0).mean()

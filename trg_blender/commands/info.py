@@ -14,8 +14,11 @@ from ..engine.native import load_native
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
-    parser = subparsers.add_parser("info", help="version, devices and why one is absent",
-                                   description="Prints the version and what this machine can render with.")
+    parser = subparsers.add_parser(
+        "info",
+        help="version, devices and why one is absent",
+        description="Prints the version and what this machine can render with.",
+    )
     parser.add_argument("--json", action="store_true", help="print one JSON object instead of lines")
 
 
@@ -28,14 +31,26 @@ def run(args: argparse.Namespace) -> int:
 
 def collect_facts() -> dict[str, Any]:
     """JSON-ready; `native` is None without the native core."""
-    devices = [{"name": device.name, "description": device.description, "available": device.available,
-                "reason": device.reason} for device in list_devices()]
+    devices = [
+        {
+            "name": device.name,
+            "description": device.description,
+            "available": device.available,
+            "reason": device.reason,
+        }
+        for device in list_devices()
+    ]
     native = None
     if native_missing() is None:
         module = load_native()
         native = {"version": module.__version__, **module.info()}
-    return {"version": __version__, "python": platform.python_version(), "platform": platform.platform(),
-            "devices": devices, "native": native}
+    return {
+        "version": __version__,
+        "python": platform.python_version(),
+        "platform": platform.platform(),
+        "devices": devices,
+        "native": native,
+    }
 
 
 def format_facts(facts: dict[str, Any]) -> str:

@@ -54,8 +54,13 @@ def material_features(scene: SceneArrays) -> set[str]:
 
 
 def light_features(scene: SceneArrays) -> set[str]:
-    names = {"sun": "suns", "point": "points", "spot": "spots",
-             "area_rectangle": "area_lights", "area_ellipse": "area_lights"}
+    names = {
+        "sun": "suns",
+        "point": "points",
+        "spot": "spots",
+        "area_rectangle": "area_lights",
+        "area_ellipse": "area_lights",
+    }
     present = {names[LIGHT_KINDS[light.kind]] for light in scene.lights}
     if any(LIGHT_KINDS[light.kind] == "sun" and light.angle > 0.0 for light in scene.lights):
         present.add("sun_angle")

@@ -47,10 +47,16 @@ def measure_error(sums: Float64, counts: NDArray[np.int64]) -> dict[str, Any]:
     delete_one = ()
     if replicates > 2:
         rows = np.arange(replicates)
-        delete_one = tuple(float(variance_of_mean(sums[rows != r], counts[rows != r])[0].mean()) for r in rows)
+        delete_one = tuple(
+            float(variance_of_mean(sums[rows != r], counts[rows != r])[0].mean()) for r in rows
+        )
     relative = variance / (mean * mean + RELATIVE_FLOOR)
-    return {"replicates": replicates, "mse": float(variance.mean()), "relmse": float(relative.mean()),
-            "delete_one_mse": delete_one}
+    return {
+        "replicates": replicates,
+        "mse": float(variance.mean()),
+        "relmse": float(relative.mean()),
+        "delete_one_mse": delete_one,
+    }
 
 
 def variance_of_mean(sums: Float64, counts: Float64) -> tuple[Float64, Float64]:

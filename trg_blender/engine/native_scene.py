@@ -18,14 +18,18 @@ from .scene_arrays import (
 )
 
 
-def build_native_scene(native: ModuleType, scene: SceneArrays, settings: RenderSettings) -> tuple[Any, dict[str, Any]]:
+def build_native_scene(
+    native: ModuleType, scene: SceneArrays, settings: RenderSettings
+) -> tuple[Any, dict[str, Any]]:
     """The built native scene and its build statistics. The arrays are copied."""
     result = native.Scene(accel=settings.accel, triangle_test=settings.triangle_test)
     for mesh in scene.meshes:
         add_mesh(result, mesh)
     for instance in scene.instances:
         transforms = np.ascontiguousarray(instance.transforms, dtype=np.float32)
-        result.add_instances(instance.mesh, transforms, np.ascontiguousarray(instance.slot_materials, dtype=np.int32))
+        result.add_instances(
+            instance.mesh, transforms, np.ascontiguousarray(instance.slot_materials, dtype=np.int32)
+        )
     for image in scene.images:
         kind = np.uint8 if image.pixels.dtype == np.uint8 else np.float32
         result.add_image(np.ascontiguousarray(image.pixels, dtype=kind), image.srgb)

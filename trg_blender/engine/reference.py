@@ -49,9 +49,12 @@ class ReferenceFilm:
         return sums / max(self.samples, 1)
 
 
-def render_reference(scene: SceneArrays, settings: RenderSettings,
-                     progress: Callable[[ReferenceFilm], None] | None = None,
-                     cancelled: Callable[[], bool] | None = None) -> ReferenceFilm:
+def render_reference(
+    scene: SceneArrays,
+    settings: RenderSettings,
+    progress: Callable[[ReferenceFilm], None] | None = None,
+    cancelled: Callable[[], bool] | None = None,
+) -> ReferenceFilm:
     """The film after `settings.samples` samples a pixel, or what there is when `cancelled` says so.
 
     `progress` sees the film after each step. Raises ImportError without embreex.
@@ -87,18 +90,24 @@ def make_film(world: World, settings: RenderSettings) -> ReferenceFilm:
     pixels = np.arange(window.width * window.height)
     depth = np.full(len(pixels), FAR_DEPTH)
     for first in range(0, len(pixels), BATCH):
-        part = pixels[first:first + BATCH]
+        part = pixels[first : first + BATCH]
         camera = pixel_rays(world.scene, settings, part, np.full((len(part), 2), 0.5))
         hits = world.traced.intersect(camera.rays)
         found = (camera.near + np.where(hits.triangle != MISS, hits.t, 0.0)) * camera.depth_per_length
         depth[part] = np.where(hits.triangle != MISS, found, FAR_DEPTH)
     zero = np.zeros((*shape, 3))
-    return ReferenceFilm(np.zeros((REPLICATES, *shape, 3)), np.zeros(REPLICATES, np.int64), np.zeros(shape),
-                         zero, depth.reshape(shape))
+    return ReferenceFilm(
+        np.zeros((REPLICATES, *shape, 3)),
+        np.zeros(REPLICATES, np.int64),
+        np.zeros(shape),
+        zero,
+        depth.reshape(shape),
+    )
 
 
-def pixel_rays(scene: SceneArrays, settings: RenderSettings, pixels: NDArray[np.int64],
-               place: Float64) -> CameraRays:
+def pixel_rays(
+    scene: SceneArrays, settings: RenderSettings, pixels: NDArray[np.int64], place: Float64
+) -> CameraRays:
     """Camera rays through `place` (n, 2) within the film's pixels, which are numbered row by row."""
     window = film_window(settings)
     x = window.x_min + pixels % window.width + place[:, 0]
@@ -131,13 +140,16 @@ def share_of(replicate: int, samples: int) -> int:
     return (samples - replicate + REPLICATES - 1) // REPLICATES if samples > replicate else 0
 
 
-def expose(world: World, settings: RenderSettings,
-           cancelled: Callable[[], bool]) -> Iterator[tuple[Step, Estimate]]:
+def expose(
+    world: World, settings: RenderSettings, cancelled: Callable[[], bool]
+) -> Iterator[tuple[Step, Estimate]]:
     """Step after step what to add to the film; ends early when cancelled, without a half step."""
     window = film_window(settings)
     pixels = window.width * window.height
-    generators = [np.random.Generator(np.random.Philox(key=np.array([settings.seed % 2**64, r], dtype=np.uint64)))
-                  for r in range(REPLICATES)]
+    generators = [
+        np.random.Generator(np.random.Philox(key=np.array([settings.seed % 2**64, r], dtype=np.uint64)))
+        for r in range(REPLICATES)
+    ]
     for step in plan_steps(settings.samples, pixels):
         batch = expose_step(world, settings, step.samples, generators[step.replicate], cancelled)
         if batch is None:
@@ -145,8 +157,13 @@ def expose(world: World, settings: RenderSettings,
         yield step, batch
 
 
-def expose_step(world: World, settings: RenderSettings, samples: int, rng: np.random.Generator,
-                cancelled: Callable[[], bool]) -> Estimate | None:
+def expose_step(
+    world: World,
+    settings: RenderSettings,
+    samples: int,
+    rng: np.random.Generator,
+    cancelled: Callable[[], bool],
+) -> Estimate | None:
     """`samples` samples of every pixel, pixel by pixel in a row; None when cancelled."""
     window = film_window(settings)
     index = np.repeat(np.arange(window.width * window.height), samples)
@@ -154,13 +171,20 @@ def expose_step(world: World, settings: RenderSettings, samples: int, rng: np.ra
     for first in range(0, len(index), BATCH):
         if cancelled():
             return None
-        part = index[first:first + BATCH]
+        part = index[first : first + BATCH]
         camera = pixel_rays(world.scene, settings, part, rng.random((len(part), 2)))
         parts.append(trace_paths(world, camera, settings.max_bounces, rng))
-    rays = RayCounts(sum(p.rays.camera for p in parts), sum(p.rays.shadow for p in parts),
-                     sum(p.rays.bounce for p in parts))
-    return Estimate(np.concatenate([p.radiance for p in parts]), np.concatenate([p.hit for p in parts]),
-                    np.concatenate([p.normal for p in parts]), rays)
+    rays = RayCounts(
+        sum(p.rays.camera for p in parts),
+        sum(p.rays.shadow for p in parts),
+        sum(p.rays.bounce for p in parts),
+    )
+    return Estimate(
+        np.concatenate([p.radiance for p in parts]),
+        np.concatenate([p.hit for p in parts]),
+        np.concatenate([p.normal for p in parts]),
+        rays,
+    )
 
 
 def add_estimate(film: ReferenceFilm, step: Step, batch: Estimate) -> None:

@@ -74,7 +74,9 @@ def build_bsdf(surface: Surface) -> Bsdf:
     reflected = fresnel_dielectric(wo[:, 2], eta)
     reflected = np.where(ideal, reflected, np.clip(reflected, 0.1, 0.9))
     coat = np.clip(coat_fresnel(surface, wo[:, 2]), 0.1, 0.9)
-    choice = np.stack([metal, glass * reflected, glass * (1.0 - reflected), opaque * coat, opaque * (1.0 - coat)], axis=1)
+    choice = np.stack(
+        [metal, glass * reflected, glass * (1.0 - reflected), opaque * coat, opaque * (1.0 - coat)], axis=1
+    )
     return Bsdf(surface, frame, wo, eta, metal, glass, opaque, ideal, straight, choice)
 
 
@@ -91,8 +93,11 @@ def evaluate_bsdf(bsdf: Bsdf, wi_world: Float64) -> tuple[Float64, Float64]:
     value, pdf = np.zeros((len(wi), 3)), np.zeros(len(wi))
     up = above_geometry & (wi[:, 2] > 0.0)
     down = ~above_geometry & (wi[:, 2] < 0.0)
-    for rows, lobes in ((up & ~bsdf.ideal, evaluate_reflection), (up, evaluate_diffuse),
-                        (down & ~bsdf.straight, evaluate_refraction)):
+    for rows, lobes in (
+        (up & ~bsdf.ideal, evaluate_reflection),
+        (up, evaluate_diffuse),
+        (down & ~bsdf.straight, evaluate_refraction),
+    ):
         lobe_value, lobe_pdf = lobes(bsdf, wi)
         value += np.where(rows[:, None], lobe_value, 0.0)
         pdf += np.where(rows, lobe_pdf, 0.0)

@@ -28,10 +28,10 @@ class Glow:
 
 def build_glow(triangles: Triangles, table: MaterialTable) -> Glow | None:
     """None when nothing glows."""
-    if not table.columns:
-        return None
     column = table.columns
-    power = (column["emission_r"] + column["emission_g"] + column["emission_b"])[triangles.material] * triangles.area
+    power = (column["emission_r"] + column["emission_g"] + column["emission_b"])[
+        triangles.material
+    ] * triangles.area
     total = power.sum()
     if not total > 0.0:
         return None
@@ -40,8 +40,9 @@ def build_glow(triangles: Triangles, table: MaterialTable) -> Glow | None:
     return Glow(index, cumulative, power / total / np.maximum(triangles.area, 1e-300))
 
 
-def sample_glow(glow: Glow, triangles: Triangles, table: MaterialTable, points: Float64,
-                rng: np.random.Generator) -> LightSample:
+def sample_glow(
+    glow: Glow, triangles: Triangles, table: MaterialTable, points: Float64, rng: np.random.Generator
+) -> LightSample:
     """One point of a glowing triangle from each of `points`; both its sides shine."""
     count = len(points)
     pick = np.minimum(np.searchsorted(glow.cumulative, rng.random(count), side="right"), len(glow.index) - 1)
@@ -57,8 +58,9 @@ def sample_glow(glow: Glow, triangles: Triangles, table: MaterialTable, points: 
     return LightSample(wi, distance, radiance, pdf)
 
 
-def pdf_glow(glow: Glow, triangles: Triangles, index: NDArray[np.int64], direction: Float64,
-             distance: Float64) -> Float64:
+def pdf_glow(
+    glow: Glow, triangles: Triangles, index: NDArray[np.int64], direction: Float64, distance: Float64
+) -> Float64:
     """Density per steradian of the point of triangle `index` at `distance` along `direction`."""
     cosine = np.abs(dot(triangles.outside[index], direction))
     density = glow.density[index] * distance * distance

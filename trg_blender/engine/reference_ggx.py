@@ -44,9 +44,11 @@ def sample_visible_normal(rng: np.random.Generator, wo: Float64, alpha: Float64)
     # Frame around the stretched view.
     flat = np.hypot(stretched[:, 0], stretched[:, 1])
     safe = np.where(flat > 0.0, flat, 1.0)
-    t1 = np.where((flat > 0.0)[:, None],
-                  np.stack([-stretched[:, 1] / safe, stretched[:, 0] / safe, np.zeros(count)], axis=1),
-                  [[1.0, 0.0, 0.0]])
+    t1 = np.where(
+        (flat > 0.0)[:, None],
+        np.stack([-stretched[:, 1] / safe, stretched[:, 0] / safe, np.zeros(count)], axis=1),
+        [[1.0, 0.0, 0.0]],
+    )
     t2 = np.cross(stretched, t1)
     # A point on the visible half of the disc, then up to the hemisphere.
     radius, phi = np.sqrt(rng.random(count)), 2.0 * np.pi * rng.random(count)
@@ -56,4 +58,6 @@ def sample_visible_normal(rng: np.random.Generator, wo: Float64, alpha: Float64)
     p3 = np.sqrt(np.maximum(0.0, 1.0 - p1 * p1 - p2 * p2))
     normal = p1[:, None] * t1 + p2[:, None] * t2 + p3[:, None] * stretched
     # Undo the stretch.
-    return normalize(np.stack([alpha * normal[:, 0], alpha * normal[:, 1], np.maximum(1e-12, normal[:, 2])], axis=1))
+    return normalize(
+        np.stack([alpha * normal[:, 0], alpha * normal[:, 1], np.maximum(1e-12, normal[:, 2])], axis=1)
+    )

@@ -40,7 +40,7 @@ class ReferenceJob:
         self._done.set()
 
     def poll(self, timeout_s: float) -> dict[str, Any]:
-        """State of the job: at once when it is done, else after `timeout_s`. Raises what the thread raised."""
+        """State of the job: at once when done, else after `timeout_s`. Raises what the thread raised."""
         done = self._done.wait(timeout_s)
         if self._failure is not None:
             raise self._failure
@@ -57,6 +57,7 @@ class ReferenceJob:
                 "rays_shadow": film.rays.shadow,
                 "rays_bounce": film.rays.bounce,
                 "rejected_samples": film.rejected_samples,
+                "kernel_set": "numpy",
             }
 
     def cancel(self) -> None:

@@ -133,7 +133,9 @@ def sample_bulb(light: Light, points: Float64, rng: np.random.Generator) -> Ligh
     towards = offset / np.maximum(distance, 1e-300)[:, None]
     if not has_sphere(light):
         strength = spot_mask(light, -towards) * attenuation(light, distance)
-        return LightSample(towards, distance, strength[:, None] * color_of(light), np.full(len(points), np.inf))
+        return LightSample(
+            towards, distance, strength[:, None] * color_of(light), np.full(len(points), np.inf)
+        )
     one_minus_cos = sphere_cone(light, distance)
     wi = build_frame(towards).to_world(sample_cone(rng, one_minus_cos))
     hit = hit_bulb(light, points, wi, np.full(len(points), np.inf))
@@ -148,7 +150,9 @@ def attenuation(light: Light, distance: Float64) -> Float64:
     with np.errstate(divide="ignore"):
         if falloff_of(light) == INVERSE_SQUARE:
             return 1.0 / (distance * distance)
-        return np.minimum(1.0, 1.0 / np.maximum(constant + linear * distance + quadratic * distance * distance, 0.0))
+        return np.minimum(
+            1.0, 1.0 / np.maximum(constant + linear * distance + quadratic * distance * distance, 0.0)
+        )
 
 
 def sphere_cone(light: Light, distance: Float64) -> Float64:

@@ -79,8 +79,6 @@ def trace_paths(world: World, camera: CameraRays, max_bounces: int, rng: np.rand
     estimate = Estimate(np.zeros((count, 3)), np.zeros(count, dtype=bool), np.zeros((count, 3)))
     paths = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count))
     for segment in range(max_bounces + 2):
-        if len(paths.index) == 0:
-            break
         hits = world.traced.intersect(paths.rays)
         if segment == 0:
             estimate.rays.camera += count
@@ -89,6 +87,8 @@ def trace_paths(world: World, camera: CameraRays, max_bounces: int, rng: np.rand
             collect_lights(world, paths, hits, estimate)
         collect_world(world, paths, hits, estimate)
         paths, hits = keep(paths, hits, hits.triangle != MISS)
+        if len(paths.index) == 0:
+            break
         surface = build_surface(world.traced.triangles, world.materials, hits, -paths.rays.direction)
         if segment == 0:
             estimate.hit[paths.index] = True
@@ -134,8 +134,9 @@ def collect_emission(world: World, paths: Paths, hits: Hits, surface: Surface, e
     estimate.radiance[paths.index] += paths.throughput * surface.material.emission * weight
 
 
-def gather_direct_light(world: World, paths: Paths, bsdf: Bsdf, rng: np.random.Generator,
-                        estimate: Estimate) -> None:
+def gather_direct_light(
+    world: World, paths: Paths, bsdf: Bsdf, rng: np.random.Generator, estimate: Estimate
+) -> None:
     """Next-event estimation: one sample of every light and one of all glowing triangles together."""
     position = bsdf.surface.position
     for light in world.scene.lights:

@@ -109,8 +109,11 @@ def build_traced_scene(scene: SceneArrays) -> TracedScene:
     from embreex.mesh_construction import TriangleMesh
     from embreex.rtcore_scene import EmbreeScene
 
-    parts = [bake_instance(scene.meshes[one.mesh], one, transform)
-             for one in scene.instances for transform in np.asarray(one.transforms, dtype=np.float64)]
+    parts = [
+        bake_instance(scene.meshes[one.mesh], one, transform)
+        for one in scene.instances
+        for transform in np.asarray(one.transforms, dtype=np.float64)
+    ]
     triangles = join_triangles(parts)
     if len(triangles.area) == 0:
         return TracedScene(triangles, None)
@@ -149,7 +152,9 @@ def join_triangles(parts: list[Triangles]) -> Triangles:
     """One after the other; no part gives empty arrays."""
     if not parts:
         zero = np.zeros((0, 3, 3))
-        return Triangles(zero, np.zeros((0, 3)), zero, np.zeros((0, 3, 2)), np.zeros(0, np.int64), np.zeros(0))
+        return Triangles(
+            zero, np.zeros((0, 3)), zero, np.zeros((0, 3, 2)), np.zeros(0, np.int64), np.zeros(0)
+        )
     return Triangles(
         np.concatenate([part.corners for part in parts]),
         np.concatenate([part.outside for part in parts]),

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .reference_math import dot, normalize
 from .reference_scene import Hits, Triangles
 from .reference_textures import linear_image, look_up
-from .scene_arrays import Float64, SceneArrays
+from .scene_arrays import MATERIAL_FIELDS, Float64, SceneArrays, pack_table
 
 IDEAL_ALPHA = 1e-3
 """GGX below it is an ideal mirror."""
@@ -67,8 +67,8 @@ class Surface:
 
 
 def build_material_table(scene: SceneArrays) -> MaterialTable:
-    names = type(scene.materials[0]).__dataclass_fields__ if scene.materials else ()
-    columns = {name: np.array([getattr(row, name) for row in scene.materials], dtype=np.float64) for name in names}
+    rows = pack_table(scene.materials, MATERIAL_FIELDS).astype(np.float64)
+    columns = {name: rows[:, column] for column, name in enumerate(MATERIAL_FIELDS)}
     return MaterialTable(columns, scene, [linear_image(image) for image in scene.images])
 
 
@@ -82,8 +82,15 @@ def evaluate_material(table: MaterialTable, index: NDArray[np.int64], uv: Float6
     emission = emission * textured(table, column["emission_texture"], uv, np.ones_like(emission))
     roughness = textured_number(table, "roughness", column, uv)
     metallic = textured_number(table, "metallic", column, uv)
-    return Material(base, metallic, roughness * roughness, column["ior"], column["specular"],
-                    column["transmission"], emission)
+    return Material(
+        base,
+        metallic,
+        roughness * roughness,
+        column["ior"],
+        column["specular"],
+        column["transmission"],
+        emission,
+    )
 
 
 def textured_number(table: MaterialTable, name: str, column: dict[str, Float64], uv: Float64) -> Float64:

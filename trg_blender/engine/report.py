@@ -42,13 +42,12 @@ class RenderFacts:
     scene: SceneArrays
     settings: RenderSettings
     job: dict[str, Any]
-    """the last poll of the job"""
+    """the last poll of the job, from which also comes `kernel_set`"""
     build: dict[str, Any]
     """build statistics; `reason` of the accelerator and the like stay out of the report"""
     error: PictureError
     history: list[HistoryEntry] = field(default_factory=list)
     warnings: list[str] = field(default_factory=list)
-    kernel_set: str | None = None
     instruction_set: str | None = None
     threads: int = 1
 
@@ -68,24 +67,31 @@ def build_report(facts: RenderFacts) -> dict[str, Any]:
         "aa": None,
         "seed": settings.seed,
         "threads": facts.threads,
-        "kernel_set": facts.kernel_set,
+        "kernel_set": job.get("kernel_set"),
         "instruction_set": facts.instruction_set,
         "samples": job["samples"],
         "seconds": {**seconds, "total": total_seconds(seconds)},
         "rays": ray_section(job),
         "error": error_section(facts),
-        "memory": {"geometry_bytes": geometry_bytes(scene), "accel_bytes": facts.build.get("bytes"),
-                   "peak_bytes": peak_bytes()},
+        "memory": {
+            "geometry_bytes": geometry_bytes(scene),
+            "accel_bytes": facts.build.get("bytes"),
+            "peak_bytes": peak_bytes(),
+        },
         "scene": scene_section(scene),
         "features": feature_section(scene, settings),
-        "numerics": {"rejected_samples": job["rejected_samples"],
-                     "degenerate_triangles": facts.build.get("degenerate_triangles"), "clamped": 0},
+        "numerics": {
+            "rejected_samples": job["rejected_samples"],
+            "degenerate_triangles": facts.build.get("degenerate_triangles"),
+            "clamped": 0,
+        },
         "warnings": [*scene.warnings, *facts.warnings],
     }
 
 
-def with_source(report: dict[str, Any], file: str | None, frame: int | None,
-                seconds: dict[str, float] | None = None) -> dict[str, Any]:
+def with_source(
+    report: dict[str, Any], file: str | None, frame: int | None, seconds: dict[str, float] | None = None
+) -> dict[str, Any]:
     """A copy that names its file and frame; `seconds` may give `script` and `sync`."""
     merged = {**report["seconds"], **(seconds or {})}
     merged["total"] = total_seconds({key: value for key, value in merged.items() if key != "total"})
@@ -99,15 +105,33 @@ def total_seconds(parts: dict[str, float | None]) -> float:
 def ray_section(job: dict[str, Any]) -> dict[str, Any]:
     total = job["rays_camera"] + job["rays_shadow"] + job["rays_bounce"]
     per_second = total / job["seconds"] if job["seconds"] > 0.0 else None
-    return {"camera": job["rays_camera"], "shadow": job["rays_shadow"], "bounce": job["rays_bounce"],
-            "total": total, "per_second": per_second}
+    return {
+        "camera": job["rays_camera"],
+        "shadow": job["rays_shadow"],
+        "bounce": job["rays_bounce"],
+        "total": total,
+        "per_second": per_second,
+    }
 
 
 def error_section(facts: RenderFacts) -> dict[str, Any]:
-    history = [{"samples": entry.samples, "seconds": entry.seconds, "rmse": entry.error.rmse,
-                "ci95": interval_list(entry.error)} for entry in facts.history]
-    return {"rmse": facts.error.rmse, "ci95": interval_list(facts.error), "relmse": facts.error.relmse,
-            "target": None, "stopped_by": "cancel" if facts.job["cancelled"] else "samples", "history": history}
+    history = [
+        {
+            "samples": entry.samples,
+            "seconds": entry.seconds,
+            "rmse": entry.error.rmse,
+            "ci95": interval_list(entry.error),
+        }
+        for entry in facts.history
+    ]
+    return {
+        "rmse": facts.error.rmse,
+        "ci95": interval_list(facts.error),
+        "relmse": facts.error.relmse,
+        "target": None,
+        "stopped_by": "cancel" if facts.job["cancelled"] else "samples",
+        "history": history,
+    }
 
 
 def interval_list(error: PictureError) -> list[float] | None:
@@ -116,8 +140,13 @@ def interval_list(error: PictureError) -> list[float] | None:
 
 def scene_section(scene: SceneArrays) -> dict[str, int]:
     triangles = sum(len(one.transforms) * len(scene.meshes[one.mesh].triangles) for one in scene.instances)
-    return {"triangles": triangles, "instances": sum(len(one.transforms) for one in scene.instances),
-            "lights": len(scene.lights), "materials": len(scene.materials), "textures": len(scene.textures)}
+    return {
+        "triangles": triangles,
+        "instances": sum(len(one.transforms) for one in scene.instances),
+        "lights": len(scene.lights),
+        "materials": len(scene.materials),
+        "textures": len(scene.textures),
+    }
 
 
 def feature_section(scene: SceneArrays, settings: RenderSettings) -> dict[str, Any]:
@@ -127,8 +156,12 @@ def feature_section(scene: SceneArrays, settings: RenderSettings) -> dict[str, A
 
 def geometry_bytes(scene: SceneArrays) -> int:
     """Bytes of the scene's arrays: meshes, transforms, images."""
-    arrays = [array for mesh in scene.meshes
-              for array in (mesh.vertices, mesh.triangles, mesh.normals, mesh.uvs, mesh.slots) if array is not None]
+    arrays = [
+        array
+        for mesh in scene.meshes
+        for array in (mesh.vertices, mesh.triangles, mesh.normals, mesh.uvs, mesh.slots)
+        if array is not None
+    ]
     arrays += [instance.transforms for instance in scene.instances]
     arrays += [image.pixels for image in scene.images]
     return sum(array.nbytes for array in arrays)

@@ -28,7 +28,9 @@ def check_settings(settings: RenderSettings) -> None:
     if settings.border is not None:
         x_min, y_min, x_max, y_max = settings.border
         if not (0 <= x_min < x_max <= width and 0 <= y_min < y_max <= height):
-            raise SceneError(f"the border {settings.border} is empty or leaves the picture of {width} x {height}")
+            raise SceneError(
+                f"the border {settings.border} is empty or leaves the picture of {width} x {height}"
+            )
     if settings.samples < 1:
         raise SceneError(f"samples is {settings.samples}: it must be 1 or more")
     if settings.max_bounces < 0:
@@ -62,14 +64,21 @@ def check_camera(camera: Camera) -> None:
 def check_mesh(mesh: MeshArrays) -> None:
     name = f"mesh {mesh.origin!r}"
     count = len(mesh.triangles)
-    expected = {"vertices": (len(mesh.vertices), 3), "triangles": (count, 3), "normals": (count, 3, 3),
-                "uvs": (count, 3, 2), "slots": (count,)}
+    expected = {
+        "vertices": (len(mesh.vertices), 3),
+        "triangles": (count, 3),
+        "normals": (count, 3, 3),
+        "uvs": (count, 3, 2),
+        "slots": (count,),
+    }
     for field, shape in expected.items():
         array = getattr(mesh, field)
         if array is not None and array.shape != shape:
             raise SceneError(f"{name}: {field} has the shape {array.shape}, expected {shape}")
     if count and (mesh.triangles.min() < 0 or mesh.triangles.max() >= len(mesh.vertices)):
-        raise SceneError(f"{name}: a triangle names a vertex that is not there ({len(mesh.vertices)} vertices)")
+        raise SceneError(
+            f"{name}: a triangle names a vertex that is not there ({len(mesh.vertices)} vertices)"
+        )
 
 
 def check_instance(scene: SceneArrays, instance: InstanceArrays) -> None:
@@ -83,7 +92,9 @@ def check_instance(scene: SceneArrays, instance: InstanceArrays) -> None:
         raise SceneError(f"{name}: it has no material slot")
     materials = instance.slot_materials
     if materials.min() < 0 or materials.max() >= len(scene.materials):
-        raise SceneError(f"{name}: a slot names a material that is not there ({len(scene.materials)} materials)")
+        raise SceneError(
+            f"{name}: a slot names a material that is not there ({len(scene.materials)} materials)"
+        )
     transforms = np.asarray(instance.transforms, dtype=np.float64)
     if transforms.shape[1:] != (3, 4):
         raise SceneError(f"{name}: transforms have the shape {transforms.shape}, expected (copies, 3, 4)")
@@ -116,5 +127,7 @@ def non_finite_warnings(meshes: list[MeshArrays]) -> Iterator[str]:
         finite = np.isfinite(mesh.vertices).all(axis=1)
         if not finite.all():
             dropped = int((~finite[mesh.triangles].all(axis=1)).sum())
-            yield (f"mesh {mesh.origin!r}: {int((~finite).sum())} vertices are not finite; "
-                   f"{dropped} triangles are left out")
+            yield (
+                f"mesh {mesh.origin!r}: {int((~finite).sum())} vertices are not finite; "
+                f"{dropped} triangles are left out"
+            )

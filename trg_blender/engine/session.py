@@ -60,7 +60,6 @@ class StartedJob:
 
     job: Job
     build: dict[str, Any]
-    kernel_set: str | None
     instruction_set: str | None
     threads: int
 
@@ -96,13 +95,21 @@ def start_native(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
     native = load_native()
     try:
         built, statistics = build_native_scene(native, scene, settings)
-        job = built.start_render(settings.width, settings.height, settings.samples, settings.seed % 2**32,
-                                 settings.max_bounces, settings.threads, settings.passes, settings.border)
+        job = built.start_render(
+            settings.width,
+            settings.height,
+            settings.samples,
+            settings.seed % 2**32,
+            settings.max_bounces,
+            settings.threads,
+            settings.passes,
+            settings.border,
+        )
     except ValueError as refusal:
         raise SceneError(str(refusal)) from refusal
-    info = native.info()
-    return StartedJob(job, statistics, info.get("kernel_set"), info.get("instruction_set"),
-                      settings.threads or os.cpu_count() or 1)
+    return StartedJob(
+        job, statistics, native.info().get("instruction_set"), settings.threads or os.cpu_count() or 1
+    )
 
 
 def start_reference(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
@@ -113,16 +120,21 @@ def start_reference(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
     begin = time.perf_counter()
     world = build_world(scene)
     baked = sum(len(one.transforms) * len(scene.meshes[one.mesh].triangles) for one in scene.instances)
-    statistics = {"seconds": time.perf_counter() - begin, "accel": "embree", "bytes": None,
-                  "degenerate_triangles": baked - len(world.traced.triangles.area)}
-    return StartedJob(ReferenceJob(world, settings), statistics, "numpy", None, 1)
+    statistics = {
+        "seconds": time.perf_counter() - begin,
+        "accel": "embree",
+        "bytes": None,
+        "degenerate_triangles": baked - len(world.traced.triangles.area),
+    }
+    return StartedJob(ReferenceJob(world, settings), statistics, None, 1)
 
 
 class RenderJob:
     """A render under way: poll it, look at it, cancel it, and take its result."""
 
-    def __init__(self, scene: SceneArrays, settings: RenderSettings, started: StartedJob,
-                 warnings: list[str]) -> None:
+    def __init__(
+        self, scene: SceneArrays, settings: RenderSettings, started: StartedJob, warnings: list[str]
+    ) -> None:
         self._scene = scene
         self._settings = settings
         self._started = started
@@ -173,11 +185,20 @@ class RenderJob:
         seconds, samples = state["seconds"], state["samples"]
         left = seconds * (state["target"] / samples - 1.0) if samples > 0 else None
         rate = rays / seconds if seconds > 0.0 else 0.0
-        return Progress(state["done"], state["cancelled"], samples, state["target"], self._error.rmse, rate,
-                        seconds, left)
+        return Progress(
+            state["done"], state["cancelled"], samples, state["target"], self._error.rmse, rate, seconds, left
+        )
 
     def _facts(self) -> RenderFacts:
         started = self._started
-        return RenderFacts(self._scene, self._settings, started.job.poll(0.0), started.build, self._error,
-                           list(self._history), self._warnings, started.kernel_set, started.instruction_set,
-                           started.threads)
+        return RenderFacts(
+            self._scene,
+            self._settings,
+            started.job.poll(0.0),
+            started.build,
+            self._error,
+            list(self._history),
+            self._warnings,
+            started.instruction_set,
+            started.threads,
+        )

@@ -1,0 +1,50 @@
+"""Native and reference show the same expected picture, for every material, light and kind of geometry.
+
+The rule stands in agreement.py: whole picture |z| < 3, blocks within what fair noise gives.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+
+from trg_blender.engine import session
+from trg_blender.engine.devices import find_device
+
+from .agreement import compare, student_to_normal
+from .agreement_scenes import cases
+
+CASES = cases()
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_native_and_reference_agree(name: str):
+    for device in ("cpu", "embree"):
+        reason = find_device(device).reason
+        if reason is not None:
+            pytest.skip(reason)
+    scene, settings = CASES[name]
+    native = session.render(scene, replace(settings, device="cpu", samples=4096))
+    reference = session.render(scene, replace(settings, device="embree"))
+    agreement = compare(native, reference)
+    assert agreement.agrees, str(agreement)
+    assert agreement.resolution < 0.06, f"the comparison could not see a fault: {agreement}"
+
+
+def test_the_comparison_sees_a_fault_of_two_percent():
+    if find_device("embree").reason is not None:
+        pytest.skip(find_device("embree").reason)
+    scene, settings = CASES["material_diffuse"]
+    first = session.render(scene, replace(settings, device="embree", samples=128))
+    second = session.render(scene, replace(settings, device="embree", samples=128, seed=9))
+    assert compare(first, second).agrees
+    second.replicate_sums[...] *= 1.02
+    assert not compare(first, second).agrees
+
+
+@pytest.mark.parametrize(
+    ("t", "degrees", "z"), [(2.364624, 7.0, 1.959964), (3.499483, 7.0, 2.575829), (2.144787, 14.0, 1.959964)]
+)
+def test_rare_values_of_student_become_as_rare_normals(t: float, degrees: float, z: float):
+    assert student_to_normal(t, degrees) == pytest.approx(z, abs=0.02)
