@@ -46,7 +46,7 @@ def test_smooth_metal_loses_no_light() -> None:
     assert furnace(Material(1.0, 1.0, 1.0, metallic=1.0, roughness=0.0)) == pytest.approx(1.0, abs=1e-6)
 
 
-@pytest.mark.parametrize("ior", [1.0, 1.0 + 1e-4, 1.5, 10.0, 0.7])
+@pytest.mark.parametrize("ior", [1.0, 1.0 + 1e-4, 1.5, 2.4, 0.7])
 def test_smooth_glass_loses_no_light(ior: float) -> None:
     glass = Material(1.0, 1.0, 1.0, transmission=1.0, roughness=0.0, ior=ior)
     assert furnace(glass, bounces=256) == pytest.approx(1.0, abs=2e-3)
