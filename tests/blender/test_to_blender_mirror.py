@@ -369,9 +369,10 @@ def test_a_damaged_picture_rolls_back_the_pictures_before_it(scene, tmp_path):
     assert len(bpy.data.images) == len(scene.objects) == 0
 
 
-def test_a_missing_model_is_a_magenta_box(scene):
-    model = ShapeRecord("model@1", 1, "model", ("nowhere.g3dm",), "model@1", None)
+@pytest.mark.parametrize("material", [None, RED])
+def test_a_missing_model_is_a_magenta_box_whatever_its_material(scene, material):
+    model = ShapeRecord("model@1", 1, "model", ("nowhere.g3dm",), "model@1", material)
     SceneMirror(scene).apply(SceneDescription(1, (model,)))
     (obj,) = scene.objects
     assert tuple(obj.dimensions) == pytest.approx((1.0, 1.0, 1.0))
-    assert tuple(obj.data.materials[0].diffuse_color)[:3] == (1.0, 0.0, 1.0)
+    assert tuple(obj.material_slots[0].material.diffuse_color)[:3] == (1.0, 0.0, 1.0)

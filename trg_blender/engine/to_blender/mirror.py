@@ -59,8 +59,8 @@ class _Frame:
     materials: MaterialStore
     objects: ObjectStore
 
-    def material_of(self, shape: ShapeRecord) -> bpy.types.Material | None:
-        record = self.plan.material_of(shape)
+    def material_of(self, planned: PlannedShape) -> bpy.types.Material | None:
+        record = self.plan.material_of(planned)
         return None if record is None else self.materials.material_of(record)
 
 
@@ -164,8 +164,8 @@ def _write_objects(frame: _Frame, description: SceneDescription) -> None:
 
 def _write_single(frame: _Frame, planned: PlannedShape) -> None:
     shape = planned.shape
-    material = frame.material_of(shape)
-    record = frame.plan.material_of(shape)
+    material = frame.material_of(planned)
+    record = frame.plan.material_of(planned)
     digest = fingerprint(planned.digest, None if record is None else record.key)
     if frame.objects.unchanged(shape.key, digest):
         return
@@ -178,7 +178,7 @@ def _write_single(frame: _Frame, planned: PlannedShape) -> None:
 def _write_group(frame: _Frame, group: CopyGroup) -> None:
     """One object for all copies; its source stands in no collection."""
     first = group.copies[0].shape
-    material = frame.material_of(first)
+    material = frame.material_of(group.copies[0])
     digest = fingerprint([planned.digest for planned in group.copies])
     if frame.objects.unchanged(group.key, digest):
         return

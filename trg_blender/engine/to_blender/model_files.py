@@ -13,7 +13,7 @@ from ..formats import MODEL_READERS, FormatError, read_model
 from .axes import points_to_trg
 from .errors import SceneError
 from .mesh_data import MeshData
-from .models import MeshContents, contents_of_model, missing_model_contents
+from .models import MISSING_MODEL_KEY, MeshContents, contents_of_model, missing_model_contents
 
 IMPORTED_ID_LISTS = (
     "objects",
@@ -41,12 +41,12 @@ IMPORTERS: dict[str, tuple[bool, Callable[[str], object]]] = {
 def model_key(shape: ShapeRecord) -> str:
     """Changes when the file does, so that a mesh made of an older file is not taken for this one's."""
     if shape.path is None:
-        return "missing"
+        return MISSING_MODEL_KEY
     path = Path(shape.path)
     try:
         status = path.stat()
     except OSError:
-        return "missing"
+        return MISSING_MODEL_KEY
     return f"model:{path}:{status.st_mtime_ns}:{status.st_size}"
 
 
@@ -56,7 +56,7 @@ def read_contents(shape: ShapeRecord) -> MeshContents:
     Raises SceneError for a damaged file or an unknown suffix; Blender's data is then as before.
     """
     key = model_key(shape)
-    if key == "missing":
+    if key == MISSING_MODEL_KEY:
         return missing_model_contents()
     path = Path(str(shape.path))
     suffix = path.suffix.lower()

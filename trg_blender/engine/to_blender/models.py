@@ -13,6 +13,8 @@ from .mesh_data import MeshData, mesh_of_triangles, shaded_flat
 from .shape_meshes import box_mesh
 
 PLACEHOLDER_SIZE = 1.0
+MISSING_MODEL_KEY = "missing"
+"""recipe key of the placeholder's mesh"""
 PLACEHOLDER_MATERIAL = MaterialRecord(
     key="missing model", version=1, name="missing model", base_color=(1.0, 0.0, 1.0), roughness=1.0
 )

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from ...lang.scene import MaterialRecord, SceneDescription, ShapeRecord
 from . import validate
 from .axes import transforms_to_blender
-from .models import MeshContents
+from .models import MISSING_MODEL_KEY, MeshContents
 from .placement import MeshRecipe, bake_linear_part, place_shape
 from .tags import fingerprint
 from .transforms import Decomposition, decompose
@@ -59,8 +59,11 @@ class FramePlan:
     materials: dict[str, MaterialRecord]
     """by the key of a record: the record that stands for it"""
 
-    def material_of(self, shape: ShapeRecord) -> MaterialRecord | None:
-        return None if shape.material is None else self.materials[shape.material.key]
+    def material_of(self, planned: PlannedShape) -> MaterialRecord | None:
+        """The record that stands for the shape's; None: the mesh keeps its own, as a placeholder does."""
+        material = planned.shape.material
+        is_placeholder = planned.recipe.key.startswith(MISSING_MODEL_KEY)
+        return None if material is None or is_placeholder else self.materials[material.key]
 
 
 @dataclass(slots=True)
