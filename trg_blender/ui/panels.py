@@ -52,10 +52,10 @@ class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):
         for name in ("samples", "max_bounces", "seed", "device", "accel", "integrator"):
             layout.prop(context.scene.trg, name)
         column = layout.column()
-        column.prop(context.scene.render, "threads_mode")
+        column.prop(context.scene.render, "threads_mode", text="Threads")
         row = column.row()
         row.enabled = context.scene.render.threads_mode == "FIXED"
-        row.prop(context.scene.render, "threads")
+        row.prop(context.scene.render, "threads", text=" ")
         layout.prop(context.scene.render, "film_transparent", text="Transparent Film")
 
 
