@@ -27,7 +27,7 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
-from trg_blender import ui  # noqa: E402
+from trg_blender.ui import registration  # noqa: E402
 
 ENGINES = ("TRG", "CYCLES")
 GRID_SIDE = 708
@@ -94,7 +94,7 @@ def enable_engines() -> None:
     if "cycles" not in bpy.context.preferences.addons:
         bpy.ops.preferences.addon_enable(module="cycles")
     if not hasattr(bpy.types.Scene, "trg"):
-        ui.register()
+        registration.register()
 
 
 def time_render(scene: bpy.types.Scene, engine: str) -> float:
@@ -131,7 +131,7 @@ def main() -> int:
     for name, load in (("default cube", load_cube), ("1M triangles", load_grid)):
         timings += measure(name, load(), arguments.rounds)
     print(
-        f"Blender {bpy.app.version_string}; ms of a 16x16 render, one sample; {arguments.rounds} rounds in turns"
+        f"Blender {bpy.app.version_string}; ms of a 16x16 render, one sample, {arguments.rounds} rounds"
     )
     print(f"{'scene':<14}{'engine':<8}{'median':>9}{'lowest':>9}{'highest':>9}{'first':>9}")
     for timing in timings:
@@ -143,7 +143,7 @@ def main() -> int:
         arguments.json.write_text(
             json.dumps([asdict(timing) for timing in timings], indent=1), encoding="utf-8"
         )
-    ui.unregister()
+    registration.unregister()
     return 0
 
 

@@ -86,16 +86,22 @@ def primary_rays(mesh: Mesh, count: int) -> Rays:
     return Rays("primary", origins, directions)
 
 
-def diffuse_rays(mesh: Mesh, triangles: Int32, seed: int) -> Rays:
-    """Rays from random points of the given triangles into the hemisphere of a random side."""
+def diffuse_rays(mesh: Mesh, primary: Rays, triangles: Int32, seed: int) -> Rays:
+    """Rays from the triangles that `primary` met, cosine-distributed on the side seen, in random order.
+
+    `triangles` is what each primary ray met, -1 for nothing; rays start at random points of them.
+    """
     rng = np.random.default_rng(seed)
-    corners = mesh.vertices[mesh.triangles[triangles]].astype(np.float64)
-    u, v = rng.random((2, len(triangles), 1))
+    seen = rng.permutation(np.resize(np.flatnonzero(triangles >= 0), len(triangles)))
+    corners = mesh.vertices[mesh.triangles[triangles[seen]]].astype(np.float64)
+    u, v = rng.random((2, len(seen), 1))
     fold = u + v > 1
     u, v = np.where(fold, 1 - u, u), np.where(fold, 1 - v, v)
     first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     normals = np.cross(first, second)
     normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
+    towards = np.einsum("ij,ij->i", normals, primary.directions[seen].astype(np.float64))
+    normals[towards > 0] *= -1
     scatter = rng.normal(size=normals.shape)
     scatter /= np.linalg.norm(scatter, axis=1, keepdims=True)
     points = corners[:, 0] + u * first + v * second + 1e-4 * normals
@@ -152,9 +158,7 @@ def main() -> None:
         tracers = (native_tracer(mesh, arguments.accel), embree_tracer(mesh))
         sys.stdout.write(f"{path.name}: {len(mesh.triangles)} triangles\n")
         primary = primary_rays(mesh, arguments.rays)
-        hit = tracers[0](primary)
-        hit = np.resize(hit[hit >= 0], arguments.rays)
-        for rays in (primary, diffuse_rays(mesh, hit, 1)):
+        for rays in (primary, diffuse_rays(mesh, primary, tracers[0](primary), 1)):
             sys.stdout.write(compare(tracers, rays, arguments.rounds) + "\n")
 
 

@@ -1,10 +1,11 @@
 /// Ray against eight triangles, without leaks at edges and vertices.
 ///
-/// Inside is told by the signs of the edge functions D.(A x B) of the corners relative to the ray's
-/// origin, in double: swapping A and B flips the sign and nothing else, so two triangles that share
-/// an edge always agree about it. A float version in sheared space (Woop, Benthin, Wald 2013) goes
-/// first; its error bound leaves only the lanes near an edge to the doubles. The distance is that of
-/// the plane through the first corner, in double.
+/// A triangle is met when the exact edge functions D.(A x B) of its corners relative to the ray's
+/// origin agree in sign, or are zero. They are computed in double, and a bound of the rounding error
+/// counts as zero: so the triangle that a ray exactly meets is never missed, at an edge or at a corner
+/// where many meet. A float version in sheared space (Woop, Benthin, Wald 2013) goes first; its own
+/// bound leaves only the lanes near an edge to the doubles. The distance is that of the plane through
+/// the first corner, in double.
 #pragma once
 
 #include "accel/traced_ray.h"
@@ -40,11 +41,11 @@ TRG_FN LaneMasks filter_lanes(const CornerBlock& block, const TracedRay& ray) {
     const ShearedCorner c = shear_corner(block.corner[2], ray);
     const Float8 u = edge_function(b, c), v = edge_function(c, a), w = edge_function(a, b);
 
-    // |error| <= 2^-24 m (16 m + 20 r), m the largest |x|, |y| and r the largest |z| of the corners;
+    // |error| <= 2^-24 m (16 m + 24 r), m the largest |x|, |y| and r the largest |z| of the corners;
     // the constant term keeps products that underflow on the safe side.
     const Float8 m = max_abs8(max_abs8(max_abs8(a.x, a.y), max_abs8(b.x, b.y)), max_abs8(c.x, c.y));
     const Float8 r = max_abs8(max_abs8(a.z, b.z), c.z);
-    const Float8 bound = multiply_add(m * splat8(24 * 0x1p-24f), m + r, splat8(1e-36f));
+    const Float8 bound = multiply_add(m * splat8(28 * 0x1p-24f), m + r, splat8(1e-36f));
 
     const Float8 least = min8(min8(u, v), w), most = max8(max8(u, v), w), minus = negate8(bound);
     return {mask_less_equal(minus, least) | mask_less_equal(most, bound),
@@ -60,34 +61,72 @@ struct EdgeFunctions {
     double u, v, w;
 };
 
-TRG_FN EdgeFunctions edge_functions(const CornerBlock& block, int lane, const TracedRay& ray) {
-    const Vec3d a = corner_of(block, 0, lane) - ray.origin_d;
-    const Vec3d b = corner_of(block, 1, lane) - ray.origin_d;
-    const Vec3d c = corner_of(block, 2, lane) - ray.origin_d;
-    return {dot(ray.direction_d, cross(b, c)), dot(ray.direction_d, cross(c, a)),
-            dot(ray.direction_d, cross(a, b))};
+/// The corners of one triangle relative to the origin of a ray.
+struct RelativeCorners {
+    Vec3d a, b, c;
+};
+
+TRG_FN RelativeCorners relative_corners(const CornerBlock& block, int lane, const TracedRay& ray) {
+    return {corner_of(block, 0, lane) - ray.origin_d, corner_of(block, 1, lane) - ray.origin_d,
+            corner_of(block, 2, lane) - ray.origin_d};
 }
 
-TRG_FN bool is_inside(const EdgeFunctions& e) {
-    return (e.u >= 0 && e.v >= 0 && e.w >= 0) || (e.u <= 0 && e.v <= 0 && e.w <= 0);
+TRG_FN EdgeFunctions edge_functions(const RelativeCorners& p, Vec3d direction) {
+    return {dot(direction, cross(p.b, p.c)), dot(direction, cross(p.c, p.a)),
+            dot(direction, cross(p.a, p.b))};
+}
+
+TRG_FN double largest_component(Vec3d v) {
+    const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
+    const double xy = x > y ? x : y;
+    return xy > z ? xy : z;
+}
+
+/// Whether the exact edge functions may agree in sign.
+TRG_FN bool is_inside(const RelativeCorners& p, Vec3d direction) {
+    const EdgeFunctions e = edge_functions(p, direction);
+    const double a = largest_component(p.a), b = largest_component(p.b), c = largest_component(p.c);
+    const double ab = a > b ? a : b, size = ab > c ? ab : c;
+    const Vec3d d = direction;
+    const double bound =
+        20 * 0x1p-53 * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z)) * size * size;
+    return (e.u >= -bound && e.v >= -bound && e.w >= -bound) ||
+           (e.u <= bound && e.v <= bound && e.w <= bound);
 }
 
 /// Distance to the plane of a lane's triangle; NaN or infinite when the ray runs within it.
-TRG_FN float plane_distance(const CornerBlock& block, int lane, const TracedRay& ray) {
+TRG_FN double plane_distance(const CornerBlock& block, int lane, const TracedRay& ray) {
     const Vec3d p0 = corner_of(block, 0, lane);
     const Vec3d n = cross(corner_of(block, 1, lane) - p0, corner_of(block, 2, lane) - p0);
-    return static_cast<float>(dot(n, p0 - ray.origin_d) / dot(n, ray.direction_d));
+    return dot(n, p0 - ray.origin_d) / dot(n, ray.direction_d);
+}
+
+/// `t` no nearer and no farther than the corners: rays almost within the plane have no better answer.
+TRG_FN double within_corners(double t, const RelativeCorners& p, Vec3d direction) {
+    const double scale = 1.0 / dot(direction, direction);
+    const double a = dot(p.a, direction) * scale, b = dot(p.b, direction) * scale;
+    const double c = dot(p.c, direction) * scale;
+    const double near_ab = a < b ? a : b, far_ab = a < b ? b : a;
+    const double near = near_ab < c ? near_ab : c, far = far_ab > c ? far_ab : c;
+    return t < near ? near : t > far ? far : t;
+}
+
+/// Distance to a possible lane; NaN when it is not met after all.
+TRG_FN float lane_distance(const CornerBlock& block, int lane, bool certain, const TracedRay& ray) {
+    const double t = plane_distance(block, lane, ray);
+    if (certain) return static_cast<float>(t);
+    const RelativeCorners corners = relative_corners(block, lane, ray);
+    if (!std::isfinite(t) || !is_inside(corners, ray.direction_d)) return NAN;
+    return static_cast<float>(within_corners(t, corners, ray.direction_d));
 }
 
 TRG_FN void test_closest(const CornerBlock& block, const TracedRay& ray, Search& search) {
     const LaneMasks lanes = filter_lanes(block, ray);
     for (uint32_t left = lanes.possible; left; left &= left - 1) {
         const int lane = lowest_bit(left);
-        const float t = plane_distance(block, lane, ray);
-        if (!(t > ray.t_min) || !improves(search, t, block.prim[lane])) continue;
-        const bool certain = (lanes.certain >> lane) & 1;
-        if (!certain && !is_inside(edge_functions(block, lane, ray))) continue;
-        record_hit(search, t, &block, lane, block.prim[lane]);
+        const float t = lane_distance(block, lane, (lanes.certain >> lane) & 1, ray);
+        if (t > ray.t_min && improves(search, t, block.prim[lane]))
+            record_hit(search, t, &block, lane, block.prim[lane]);
     }
 }
 
@@ -95,10 +134,8 @@ TRG_FN bool test_any(const CornerBlock& block, const TracedRay& ray, float t_max
     const LaneMasks lanes = filter_lanes(block, ray);
     for (uint32_t left = lanes.possible; left; left &= left - 1) {
         const int lane = lowest_bit(left);
-        const float t = plane_distance(block, lane, ray);
-        if (!(t > ray.t_min && t < t_max)) continue;
-        const bool certain = (lanes.certain >> lane) & 1;
-        if (certain || is_inside(edge_functions(block, lane, ray))) return true;
+        const float t = lane_distance(block, lane, (lanes.certain >> lane) & 1, ray);
+        if (t > ray.t_min && t < t_max) return true;
     }
     return false;
 }
@@ -107,10 +144,13 @@ struct Barycentrics {
     float u, v;
 };
 
+TRG_FN float unit_range(double x) { return static_cast<float>(x < 0 ? 0 : x > 1 ? 1 : x); }
+
 TRG_FN Barycentrics coordinates_of(const CornerBlock& block, int lane, const TracedRay& ray) {
-    const EdgeFunctions e = edge_functions(block, lane, ray);
-    const double scale = 1.0 / (e.u + e.v + e.w);
-    return {static_cast<float>(e.v * scale), static_cast<float>(e.w * scale)};
+    const EdgeFunctions e = edge_functions(relative_corners(block, lane, ray), ray.direction_d);
+    const double sum = e.u + e.v + e.w;
+    if (sum == 0) return {0.0f, 0.0f};
+    return {unit_range(e.v / sum), unit_range(e.w / sum)};
 }
 
 }  // namespace trg::TRG_ISA

@@ -54,7 +54,6 @@ TRG_FN Vec3 into_placement(const Placement& placement, Vec3d v) {
 
 /// The ray in the space of a placed soup; distances stay what they are.
 TRG_FN TracedRay enter_placement(const Placement& placement, const TracedRay& ray) {
-    if (placement.identity) return ray;
     const auto& t = placement.translation;
     return prepare_ray(into_placement(placement, ray.origin_d - Vec3d{t[0], t[1], t[2]}),
                        into_placement(placement, ray.direction_d), ray.t_min);
@@ -98,7 +97,8 @@ struct ScaledRay {
 TRG_FN ScaledRay scale_ray(Ray ray) {
     if (!(ray.t_min > 0)) ray.t_min = 0;   // also -0, whose bits do not sort
     const Vec3 d = ray.direction;
-    const float largest = std::fmax(std::fmax(std::fabs(d.x), std::fabs(d.y)), std::fabs(d.z));
+    const float x = std::fabs(d.x), y = std::fabs(d.y), z = std::fabs(d.z);
+    const float largest_xy = x > y ? x : y, largest = largest_xy > z ? largest_xy : z;
     if (largest > 1e-12f && largest < 1e12f) return {ray, 1.0f};
     const int exponent = std::ilogb(largest);
     // Two steps each way, because 2^exponent itself may be out of range.
@@ -114,7 +114,9 @@ TRG_FN Hit resolve_hit(const Search& search, const TracedRay& ray, float scale) 
     if (search.prim < 0) return no_hit();
     const Placement& placement = *search.placement;
     const Block& block = *static_cast<const Block*>(search.block);
-    const Barycentrics at = coordinates_of(block, search.lane, enter_placement(placement, ray));
+    const Barycentrics at =
+        placement.identity ? coordinates_of(block, search.lane, ray)
+                           : coordinates_of(block, search.lane, enter_placement(placement, ray));
     const PrimOrigin origin = origin_of(placement, search.prim);
     const float t = search.t / scale;
     if (!(t < HUGE_VALF)) return no_hit();

@@ -15,11 +15,11 @@ constexpr float kFarFactor = 1.0000006f;
 
 struct TracedRay {
     float origin[3], direction[3];
-    float inverse[3], far_inverse[3];   // 1 / direction, and the same raised by kFarFactor
-    int sign[3];                        // 1 where the direction is negative: the high plane is near
+    float inverse[3];         // 1 / direction
+    int sign[3];              // 1 where the direction is negative: the high plane is near
     float t_min;
-    int kx, ky, kz;                     // kz: the axis along which the direction is longest
-    float shear_x, shear_y;             // direction[kx], direction[ky] over direction[kz]
+    int kx, ky, kz;           // kz: the axis along which the direction is longest
+    float shear_x, shear_y;   // direction[kx], direction[ky] over direction[kz]
     Vec3d origin_d, direction_d;
 };
 
@@ -31,16 +31,18 @@ TRG_FN TracedRay prepare_ray(Vec3 origin, Vec3 direction, float t_min) {
         ray.origin[axis] = o[axis];
         ray.direction[axis] = d[axis];
         ray.inverse[axis] = 1.0f / d[axis];
-        ray.far_inverse[axis] = ray.inverse[axis] * kFarFactor;
         ray.sign[axis] = std::signbit(d[axis]) ? 1 : 0;
     }
     ray.t_min = t_min;
+    // Without branches: which axis is longest is anyone's guess.
+    constexpr int kNext[4] = {1, 2, 0, 0};
     const float x = std::fabs(d[0]), y = std::fabs(d[1]), z = std::fabs(d[2]);
-    ray.kz = x > y ? (x > z ? 0 : 2) : (y > z ? 1 : 2);
-    ray.kx = ray.kz == 2 ? 0 : ray.kz + 1;
-    ray.ky = ray.kx == 2 ? 0 : ray.kx + 1;
-    ray.shear_x = d[ray.kx] / d[ray.kz];
-    ray.shear_y = d[ray.ky] / d[ray.kz];
+    const int y_over_x = y > x, z_over_both = (z > x) & (z > y);
+    ray.kz = (z_over_both << 1) | (y_over_x & ~z_over_both);
+    ray.kx = kNext[ray.kz];
+    ray.ky = kNext[ray.kx];
+    ray.shear_x = d[ray.kx] * ray.inverse[ray.kz];
+    ray.shear_y = d[ray.ky] * ray.inverse[ray.kz];
     ray.origin_d = to_double(origin);
     ray.direction_d = to_double(direction);
     return ray;

@@ -11,18 +11,81 @@ struct ChildHits {
     Float8 entry;
 };
 
-TRG_FN ChildHits meet_children(const WideNode& node, const TracedRay& ray, float limit) {
-    // Distances go first into min8 and max8: a NaN, from a ray within a face, is dropped there.
-    Float8 entry = splat8(ray.t_min), exit = splat8(limit);
-    for (int axis = 0; axis < 3; ++axis) {
-        const Float8 origin = splat8(ray.origin[axis]);
-        const Float8 near = load8(node.bound[ray.sign[axis]][axis]) - origin;
-        const Float8 far = load8(node.bound[1 - ray.sign[axis]][axis]) - origin;
-        entry = max8(near * splat8(ray.inverse[axis]), entry);
-        exit = min8(far * splat8(ray.far_inverse[axis]), exit);
+/// Distances to planes as bound * inverse + shift: one step each. The shifts are moved apart by the
+/// rounding of origin * inverse, the far side is raised by kFarFactor, so that no box is lost.
+struct QuickBoxTest {
+    Float8 inverse[3], far_inverse[3];
+    Float8 near_shift[3], far_shift[3];
+
+    /// False for rays whose origin * inverse is too large or not a number: parallel to an axis, or
+    /// from very far.
+    static bool fits(const TracedRay& ray) {
+        constexpr float kLargest = 1e30f;
+        bool fits = true;
+        for (int axis = 0; axis < 3; ++axis)
+            fits = fits & (std::fabs(ray.inverse[axis]) < kLargest) &
+                   (std::fabs(ray.origin[axis] * ray.inverse[axis]) < kLargest);
+        return fits;
     }
-    return {mask_less_equal(entry, exit), entry};
-}
+    explicit QuickBoxTest(const TracedRay& ray) {
+        for (int axis = 0; axis < 3; ++axis) {
+            const float shift = ray.origin[axis] * ray.inverse[axis];
+            const float slack = std::fabs(shift) * (4 * 0x1p-24f);
+            inverse[axis] = splat8(ray.inverse[axis]);
+            far_inverse[axis] = splat8(ray.inverse[axis] * kFarFactor);
+            near_shift[axis] = splat8(-shift - slack);
+            far_shift[axis] = splat8((-shift + slack) * kFarFactor);
+        }
+    }
+    Float8 near_distance(Float8 bound, int axis) const {
+        return multiply_add(bound, inverse[axis], near_shift[axis]);
+    }
+    Float8 far_distance(Float8 bound, int axis) const {
+        return multiply_add(bound, far_inverse[axis], far_shift[axis]);
+    }
+};
+
+/// Distances to planes as (bound - origin) * inverse: for every ray. A ray within a face gives NaN.
+struct CarefulBoxTest {
+    Float8 inverse[3], far_inverse[3], origin[3];
+
+    explicit CarefulBoxTest(const TracedRay& ray) {
+        for (int axis = 0; axis < 3; ++axis) {
+            inverse[axis] = splat8(ray.inverse[axis]);
+            far_inverse[axis] = splat8(ray.inverse[axis] * kFarFactor);
+            origin[axis] = splat8(ray.origin[axis]);
+        }
+    }
+    Float8 near_distance(Float8 bound, int axis) const {
+        return (bound - origin[axis]) * inverse[axis];
+    }
+    Float8 far_distance(Float8 bound, int axis) const {
+        return (bound - origin[axis]) * far_inverse[axis];
+    }
+};
+
+/// A box test with what else a node needs: the range of the ray and which planes are near.
+template <class BoxTest>
+struct NodeTest {
+    BoxTest box;
+    Float8 t_min;
+    int near[3];
+
+    explicit NodeTest(const TracedRay& ray)
+        : box(ray), t_min(splat8(ray.t_min)), near{ray.sign[0], ray.sign[1], ray.sign[2]} {}
+
+    ChildHits meet(const WideNode& node, float limit) const {
+        // Distances go first into min8 and max8, where a NaN is dropped.
+        Float8 entry = t_min, exit = splat8(limit);
+        for (int axis = 0; axis < 3; ++axis) {
+            const Float8 near_bound = load8(node.bound[near[axis]][axis]);
+            const Float8 far_bound = load8(node.bound[1 - near[axis]][axis]);
+            entry = max8(box.near_distance(near_bound, axis), entry);
+            exit = min8(box.far_distance(far_bound, axis), exit);
+        }
+        return {mask_less_equal(entry, exit), entry};
+    }
+};
 
 /// Subtrees still to be visited, the next one last, with the distances at which the ray enters them.
 struct WalkStack {
@@ -50,26 +113,38 @@ TRG_FN __m256i sort_descending(__m256i keys) {
     return exchange<0x55>(keys, _mm256_shuffle_epi32(keys, 0xb1));
 }
 
-/// Pushes the children of `hits`, the nearest last. Keys are the entry distances, whose three lowest
-/// bits make room for the lane.
-TRG_FN void push_sorted(const WideNode& node, const ChildHits& hits, WalkStack& stack) {
+/// The least of eight unsigned numbers.
+TRG_FN uint32_t least_of(__m256i keys) {
+    __m128i least = _mm_min_epu32(_mm256_castsi256_si128(keys), _mm256_extracti128_si256(keys, 1));
+    least = _mm_min_epu32(least, _mm_shuffle_epi32(least, 0x4e));
+    least = _mm_min_epu32(least, _mm_shuffle_epi32(least, 0xb1));
+    return static_cast<uint32_t>(_mm_cvtsi128_si32(least));
+}
+
+/// The nearest child of `hits`; the others are pushed, the next nearest last. Keys are the entry
+/// distances, whose three lowest bits make room for the lane.
+TRG_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits, WalkStack& stack) {
     const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     const __m256i bits = _mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(hits.entry.v));
     const __m256i select = _mm256_sllv_epi32(_mm256_set1_epi32(static_cast<int>(hits.mask)),
                                              _mm256_sub_epi32(_mm256_set1_epi32(31), lanes));
     const __m256i missed = _mm256_andnot_si256(_mm256_srai_epi32(select, 31), _mm256_set1_epi32(-1));
-    const __m256i keys = sort_descending(_mm256_or_si256(_mm256_or_si256(bits, lanes), missed));
+    const __m256i keys = _mm256_or_si256(_mm256_or_si256(bits, lanes), missed);
+    const NodeRef nearest = node.child[least_of(keys) & 7];
+
+    const __m256i sorted = sort_descending(keys);
     const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.child));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(stack.ref + stack.size),
-                        _mm256_permutevar8x32_epi32(children, keys));
+                        _mm256_permutevar8x32_epi32(children, sorted));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(stack.entry + stack.size),
-                        _mm256_andnot_si256(_mm256_set1_epi32(7), keys));
-    stack.size += count_bits(hits.mask);
+                        _mm256_andnot_si256(_mm256_set1_epi32(7), sorted));
+    stack.size += count_bits(hits.mask) - 1;
+    return nearest;
 }
 
 #else
 
-TRG_FN void push_sorted(const WideNode& node, const ChildHits& hits, WalkStack& stack) {
+TRG_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits, WalkStack& stack) {
     const int first = stack.size;
     for (uint32_t left = hits.mask; left; left &= left - 1) {
         const int lane = lowest_bit(left);
@@ -81,12 +156,13 @@ TRG_FN void push_sorted(const WideNode& node, const ChildHits& hits, WalkStack& 
         stack.entry[at] = hits.entry.v[lane];
         stack.ref[at] = node.child[lane];
     }
+    return stack.ref[--stack.size];
 }
 
 #endif
 
-/// Pushes the children of `hits` as they come, without distances.
-TRG_FN void push_unsorted(const WideNode& node, const ChildHits& hits, WalkStack& stack) {
+/// Any child of `hits`; the others are pushed as they come, without distances.
+TRG_FN NodeRef push_all_but_one(const WideNode& node, const ChildHits& hits, WalkStack& stack) {
 #if defined(__AVX512VL__)
     const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.child));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(stack.ref + stack.size),
@@ -96,13 +172,12 @@ TRG_FN void push_unsorted(const WideNode& node, const ChildHits& hits, WalkStack
     for (uint32_t left = hits.mask; left; left &= left - 1)
         stack.ref[stack.size++] = node.child[lowest_bit(left)];
 #endif
+    return stack.ref[--stack.size];
 }
 
-/// Calls `visit(leaf)` for the leaves of the tree that the ray meets before `*limit`, which `visit`
-/// may lower; nearest first where `kSorted`. Ends early, with true, when `visit` returns true.
-template <bool kSorted, class Visit>
-TRG_FN bool walk_tree(const Tree& tree, const TracedRay& ray, const float* limit, Visit visit) {
-    if (tree.root == kNoNode) return false;
+template <bool kSorted, class BoxTest, class Visit>
+TRG_FN bool walk_nodes(const Tree& tree, const TracedRay& ray, const float* limit, Visit& visit) {
+    const NodeTest<BoxTest> test(ray);
     const WideNode* nodes = tree.nodes.data();
     WalkStack stack;
     NodeRef ref = tree.root;
@@ -111,13 +186,13 @@ TRG_FN bool walk_tree(const Tree& tree, const TracedRay& ray, const float* limit
             if (visit(ref & ~kLeafBit)) return true;
         } else {
             const WideNode& node = nodes[ref];
-            const ChildHits hits = meet_children(node, ray, *limit);
-            if (hits.mask && !(hits.mask & (hits.mask - 1))) {
-                ref = node.child[lowest_bit(hits.mask)];
+            const ChildHits hits = test.meet(node, *limit);
+            if (hits.mask) {
+                if (!(hits.mask & (hits.mask - 1))) ref = node.child[lowest_bit(hits.mask)];
+                else if (kSorted) ref = push_all_but_nearest(node, hits, stack);
+                else ref = push_all_but_one(node, hits, stack);
                 continue;
             }
-            if (kSorted && hits.mask) push_sorted(node, hits, stack);
-            else if (hits.mask) push_unsorted(node, hits, stack);
         }
         do {
             if (stack.size == 0) return false;
@@ -125,6 +200,15 @@ TRG_FN bool walk_tree(const Tree& tree, const TracedRay& ray, const float* limit
         } while (kSorted && stack.entry[stack.size] > *limit);
         ref = stack.ref[stack.size];
     }
+}
+
+/// Calls `visit(leaf)` for the leaves of the tree that the ray meets before `*limit`, which `visit`
+/// may lower; nearest first where `kSorted`. Ends early, with true, when `visit` returns true.
+template <bool kSorted, class Visit>
+TRG_FN bool walk_tree(const Tree& tree, const TracedRay& ray, const float* limit, Visit visit) {
+    if (tree.root == kNoNode) return false;
+    if (QuickBoxTest::fits(ray)) return walk_nodes<kSorted, QuickBoxTest>(tree, ray, limit, visit);
+    return walk_nodes<kSorted, CarefulBoxTest>(tree, ray, limit, visit);
 }
 
 }  // namespace trg::TRG_ISA

@@ -28,9 +28,12 @@ TRG_FN Hit no_hit() { return {std::numeric_limits<float>::infinity(), 0.0f, 0.0f
 /// False when a number is not finite (an infinite t_max is allowed) or the direction is null:
 /// such rays hit nothing.
 TRG_FN bool is_traceable(const Ray& ray) {
-    const bool directed = ray.direction.x != 0 || ray.direction.y != 0 || ray.direction.z != 0;
-    return directed && is_finite(ray.origin) && is_finite(ray.direction) &&
-           std::isfinite(ray.t_min) && ray.t_max > ray.t_min;
+    // Zero times a number is zero unless the number is infinite or NaN.
+    const Vec3 o = ray.origin * 0.0f, d = ray.direction * 0.0f;
+    const float zero = ((o.x + o.y) + (o.z + d.x)) + ((d.y + d.z) + ray.t_min * 0.0f);
+    const bool directed =
+        (ray.direction.x != 0) | (ray.direction.y != 0) | (ray.direction.z != 0);
+    return (zero == 0) & directed & (ray.t_max > ray.t_min);
 }
 
 }  // namespace trg
