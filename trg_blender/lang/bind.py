@@ -44,6 +44,8 @@ class HostParameter:
     high: float = LARGEST
     open_low: bool = False
     rest: bool = False
+    takes_number: bool = False
+    takes_vector: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,6 +59,13 @@ class Builtin:
     doc: str
     run: Callable[..., object]
     owner: str | None = None
+    fast: Callable[..., object] | None = None
+    """Does the work for arguments that need no check; None for all others."""
+
+    @property
+    def rest(self) -> HostParameter | None:
+        """The last parameter, if it takes any number of arguments."""
+        return self.parameters[-1] if self.parameters and self.parameters[-1].rest else None
 
     @property
     def shown(self) -> str:
@@ -100,15 +109,18 @@ def _parse_parameter(text: str) -> HostParameter:
     if m is None:
         raise ValueError(f"signature not understood: {text!r}")
     low = m["above"] or m["least"] or m["low"]
+    types = tuple(m["types"].split("|"))
     return HostParameter(
         name=m["name"],
-        types=tuple(m["types"].split("|")),
+        types=types,
         required=not (m["optional"] or m["default"] or m["rest"]),
         default=float(m["default"]) if m["default"] else None,
         low=float(low) if low else -LARGEST,
         high=float(m["high"]) if m["high"] else LARGEST,
         open_low=bool(m["open"]),
         rest=bool(m["rest"]),
+        takes_number="num" in types,
+        takes_vector="vec3" in types,
     )
 
 
@@ -121,13 +133,18 @@ class HostTable:
         self.methods: dict[tuple[str, str], Builtin] = {}
 
     def function(
-        self, name: str, signature: str, doc: str, result: str = "undef"
+        self,
+        name: str,
+        signature: str,
+        doc: str,
+        result: str = "undef",
+        fast: Callable[..., object] | None = None,
     ) -> Callable[[Callable[..., object]], Callable[..., object]]:
         """Declare the decorated `run(rt, *arguments)` as built-in function `name`."""
 
         def declare(run: Callable[..., object]) -> Callable[..., object]:
             self.functions[name] = Builtin(
-                name, signature, parse_signature(signature), result, doc, run
+                name, signature, parse_signature(signature), result, doc, run, fast=fast
             )
             return run
 
@@ -158,8 +175,10 @@ class HostTable:
             )  # fmt: skip
             self.methods[owner.kind, name] = row
 
+            check = make_checker(row)
+
             def invoke(self: Value, _depth: int, *arguments: object) -> object:
-                return run(self.rt, self, *check_arguments(row, arguments))  # type: ignore[attr-defined]
+                return run(self.rt, self, *check(arguments))  # type: ignore[attr-defined]
 
             setattr(owner, "T_" + name, invoke)
             return run
@@ -192,8 +211,16 @@ HOST = HostTable()
 
 def make_invoker(rt: Runtime, row: Builtin) -> Callable[..., object]:
     """`row` as a Python function that checks its arguments. One number in, the fast way."""
-    run = row.run
+    run, fast = row.run, row.fast
+    check = make_checker(row)
     parameters = row.parameters
+    if fast is not None:
+
+        def invoke_fast(*arguments: object) -> object:
+            made = fast(*arguments)
+            return made if made is not None else run(rt, *check(arguments))
+
+        return invoke_fast
     if len(parameters) == 1 and parameters[0].types == ("num",) and not parameters[0].open_low:
         low, high = parameters[0].low, parameters[0].high
 
@@ -202,38 +229,60 @@ def make_invoker(rt: Runtime, row: Builtin) -> Callable[..., object]:
                 value = arguments[0]
                 if type(value) is float and low <= value <= high:
                     return run(rt, value)
-            return run(rt, *check_arguments(row, arguments))
+            return run(rt, *check(arguments))
 
         return invoke_one
 
     def invoke(*arguments: object) -> object:
-        return run(rt, *check_arguments(row, arguments))
+        return run(rt, *check(arguments))
 
     return invoke
 
 
-def check_arguments(row: Builtin, arguments: tuple[object, ...]) -> list[object]:
-    """The arguments as Python values, defaults filled in; TrgError names the first that is wrong."""
-    parameters = row.parameters
-    given = len(arguments)
-    rest = parameters[-1] if parameters and parameters[-1].rest else None
+def make_checker(row: Builtin) -> Callable[[tuple[object, ...]], Iterable[object]]:
+    """A function that turns arguments into Python values, defaults filled in.
+
+    It raises TrgError naming the first argument that is wrong.
+    """
+    parameters, rest, least = row.parameters, row.rest, row.required
     most = len(parameters) - (rest is not None)
-    if given < row.required or (given > most and rest is None):
-        raise _wrong_count(row, most, given)
-    checked: list[object] = []
-    for index, parameter in enumerate(parameters[:most]):
-        if index < given:
-            checked.append(_check(row, index, parameter, arguments[index]))
-        else:
-            checked.append(parameter.default)
-    if rest is not None:
-        checked += [_check(row, i, rest, arguments[i]) for i in range(most, given)]
+    defaults = tuple(p.default for p in parameters)
+
+    def check(arguments: tuple[object, ...]) -> Iterable[object]:
+        given = len(arguments)
+        if given < least or (given > most and rest is None):
+            raise _wrong_count(row, most, given)
+        for parameter, value in zip(parameters, arguments, strict=False):
+            if parameter.rest or not _passes(parameter, value):
+                return _check_all(row, arguments)
+        return arguments if given >= most else arguments + defaults[given:most]
+
+    return check
+
+
+def _check_all(row: Builtin, arguments: tuple[object, ...]) -> list[object]:
+    """The long way: every argument with its message; strings become Python's."""
+    parameters = row.parameters
+    last = len(parameters) - 1
+    checked = [_check(row, i, parameters[min(i, last)], v) for i, v in enumerate(arguments)]
+    checked += [p.default for p in parameters[len(arguments) :] if not p.rest]
     return checked
+
+
+def _passes(parameter: HostParameter, value: object) -> bool:
+    """Whether a number, vector or thing is right beyond doubt; the short way of `_check`."""
+    kind = type(value)
+    if kind is float:
+        return parameter.takes_number and parameter.low < value < parameter.high  # type: ignore[operator]
+    if kind is Vec3:
+        total = value[0] + value[1] + value[2]  # type: ignore[index]
+        return parameter.takes_vector and total - total == 0.0
+    return kind is not Str and getattr(kind, "kind", "undef") in parameter.types
 
 
 def _wrong_count(row: Builtin, most: int, given: int) -> TrgError:
     wanted = str(most) if row.required == most else f"{row.required} to {most}"
-    if row.parameters and row.parameters[-1].rest:
+    if row.rest is not None:
         wanted = f"at least {row.required}"
     usage = f"{row.shown}({row.signature})"
     return TrgError("E506", "usage", name=row.shown, wanted=wanted, given=given, usage=usage)

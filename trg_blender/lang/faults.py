@@ -48,7 +48,7 @@ class FaultReader:
     def read(self, error: BaseException) -> Diagnostic:
         """The diagnostic of an exception that left the translated code."""
         places = self._places(error.__traceback__)
-        site = places[-1][1] if places else Site(Span(self.rt.program.main, 1, 1, 1, 1))
+        site = places[-1][1] if places else Site(self.rt.program.start)
         told = self._explain(error, site)
         span = told.span or site.span
         related: tuple[tuple[Span, str], ...] = ()
@@ -98,6 +98,8 @@ class FaultReader:
     def _field_error(self, error: AttributeError, site: Site) -> TrgError:
         name = error.name
         if name is None or not name.startswith(FIELD) or error.obj is None:
+            return self._unset_field(str(error), site)
+        if site.op == ".=" and not isinstance(error.obj, Obj | FunctionType):
             return self._unset_field(str(error), site)
         return field_error(error.obj, name.removeprefix(FIELD), site)
 

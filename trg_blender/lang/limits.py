@@ -25,6 +25,8 @@ class Limits:
     """Bytes of all live strings."""
     max_blocks: int = 1_500_000
     """Python memory blocks: values, objects, fields."""
+    max_bytes: int = 384 * 1024 * 1024
+    """Growth of the process while the program runs, shapes and lights not counted."""
     max_shapes: int = 1_000_000
     """Shapes and lights made in one run."""
     output_lines_frame: int = 200

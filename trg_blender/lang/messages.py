@@ -98,7 +98,7 @@ MESSAGES: dict[str, tuple[str, str]] = {
     "E512": ("'{name}' cannot be read as text", "'{name}' нельзя прочитать как текст"),
     "E601": ("the instruction budget of {limit} steps for a frame is used up", "исчерпан предел шагов на кадр (instruction budget): {limit}"),
     "E602": ("the time limit of {limit:g} seconds for a frame is used up", "исчерпано время на кадр: {limit:g} с"),
-    "E604": ("the program uses too much memory (limit {limit} blocks)", "программе нужно слишком много памяти (предел {limit} блоков)"),
+    "E604": ("the program uses too much memory (limit {limit})", "программе нужно слишком много памяти (предел {limit})"),
     "E605": ("the string is longer than {limit} characters", "строка длиннее {limit} символов"),
     "E606": ("the strings of the program use more than {limit} MB", "строки программы занимают больше {limit} МБ"),
     "E607": ("calls of '{name}' are nested too deeply (limit {limit})", "вызовы '{name}' вложены слишком глубоко (предел {limit})"),

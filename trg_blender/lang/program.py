@@ -52,6 +52,11 @@ class Program:
     global_names: tuple[str, ...] = field(repr=False)
     functions: tuple[FunctionFacts, ...] = field(repr=False)
 
+    @property
+    def start(self) -> Span:
+        """The first character of the main file."""
+        return Span(self.main, 1, 1, 1, 1)
+
     def function_name(self, code_name: str) -> str:
         """The author's name of the function compiled as `code_name`."""
         return self.functions[int(code_name.removeprefix("f_"))].name

@@ -6,12 +6,13 @@ import sys
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain, repeat
+from itertools import chain, count, repeat
 from types import CodeType, FrameType, GeneratorType
 from typing import TYPE_CHECKING
 
 from .diagnostics import DiagnosticBag, Notice
 from .limits import MAX_CALL_DEPTH, MAX_OPERATOR_DEPTH, HostOptions
+from .memory import resident_bytes
 from .scene import RenderModes
 from .source import Span
 from .values import COMPARISON, Obj, Str, TrgError, Undef, overload_of, trg_frame
@@ -22,10 +23,14 @@ if TYPE_CHECKING:
     from .program import Program
 
 SLICE = 10_000
+BLOCKS_OF_THING = 16
+BYTES_OF_THING = 1024
+"""What a shape or light may take, its records included."""
+_HOLDS_SOMETHING = 2_000
 _TEXT_WORK_CHECK = 64 * 1024 * 1024
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Site:
     """A place of the program: its operator if it is one, and the spans of operands or arguments."""
 
@@ -53,19 +58,19 @@ class Runtime:
         self.live_text = 0
         self.frame = 0
         self.modes = RenderModes()
-        self.made_at: dict[tuple[str, Span], int] = {}
+        self._made_at: dict[tuple[Site | None, str], tuple[str, Iterator[int]]] = {}
         self._things = 0
         self.cancelled = False
-        self.memory_error = False
         self._steps = 0
         self._slice = SLICE
         self._text_work = 0
         self._seconds_start = time.thread_time()
         self._blocks_start = sys.getallocatedblocks()
+        self._resident_start = resident_bytes()
         self._operator_depth = 0
         self._lines_this_frame = 0
         self._output_cut = False
-        self._sites: dict[tuple[CodeType, int], Site] = {}
+        self._sites: dict[tuple[int, int], Site] = {}
 
     # Budget.
 
@@ -92,9 +97,22 @@ class Runtime:
         if self.cancelled:
             raise TrgError("E609")
         self.check_time()
-        blocks = sys.getallocatedblocks() - self._blocks_start
-        if blocks > self.limits.max_blocks:
-            raise TrgError("E604", limit=self.limits.max_blocks)
+        self._check_memory()
+
+    def _check_memory(self) -> None:
+        """Blocks count what is small; what is large shows in the resident size of the process.
+
+        Shapes and lights have a limit of their own and are allowed for. The process may grow for
+        reasons that are not the program's: its size counts only when the program holds something.
+        """
+        limits = self.limits
+        blocks = sys.getallocatedblocks() - self._blocks_start - BLOCKS_OF_THING * self._things
+        if blocks > limits.max_blocks:
+            raise TrgError("E604", limit=f"{limits.max_blocks} blocks")
+        if blocks > _HOLDS_SOMETHING:
+            grown = resident_bytes() - self._resident_start - BYTES_OF_THING * self._things
+            if grown > limits.max_bytes:
+                raise TrgError("E604", limit=f"{limits.max_bytes // 1048576} MB")
 
     def check_time(self) -> None:
         if time.thread_time() - self._seconds_start > self.limits.max_seconds:
@@ -133,7 +151,7 @@ class Runtime:
 
     def site_at(self, code: CodeType, last_instruction: int) -> Site:
         """The place of an instruction, from the code object's position table."""
-        key = (code, last_instruction)
+        key = (id(code), last_instruction)  # the program keeps its code objects alive
         site = self._sites.get(key)
         if site is None:
             site = self._sites[key] = self._find_site(code, last_instruction)
@@ -147,6 +165,20 @@ class Runtime:
             code.co_filename, first, (col or 0) + 1, end_line or first, (end_col or 0) + 1
         )
         return self.program.sites.get(span) or Site(span)
+
+    def make_key(self, kind: str) -> tuple[str, Span]:
+        """The key of a thing that the running call makes, and the place of the call.
+
+        The k-th thing of a kind made at a place has number k: the same in every run.
+        """
+        site = self.site()
+        known = self._made_at.get((site, kind))
+        span = site.span if site is not None else self.program.start
+        if known is None:
+            file = "" if span.file == self.program.main else f"{span.file}:"
+            known = (f"{kind}@{file}{span.line}:{span.col}#", count(1))
+            self._made_at[site, kind] = known
+        return f"{known[0]}{next(known[1])}", span
 
     # Diagnostics and output.
 

@@ -24,7 +24,19 @@ def _isdef(rt: Runtime, value: object) -> object:
     return 0.0 if type(value) is Undef else 1.0
 
 
-@HOST.function("vec3", "x: num, y: num?, z: num?", "A vector; one number fills all three.", "vec3")
+def _three_numbers(*arguments: object) -> object:
+    if len(arguments) == 3:
+        x, y, z = arguments
+        if type(x) is float and type(y) is float and type(z) is float:
+            total = x + y + z
+            return Vec3.of(x, y, z) if total - total == 0.0 else None
+    return None
+
+
+@HOST.function(
+    "vec3", "x: num, y: num?, z: num?", "A vector; one number fills all three.", "vec3",
+    fast=_three_numbers,
+)  # fmt: skip
 def _vec3(rt: Runtime, x: float, y: float | None, z: float | None) -> object:
     if y is None:
         return Vec3.of(x, x, x)

@@ -5,13 +5,14 @@ from __future__ import annotations
 from ..bind import HOST
 from ..runtime import Runtime
 from ..scene import LightRecord
+from ..source import Span
 from ..vector import Vec3
-from .things import Light, Place, Triple, name_error, place_of, triple
+from .things import Light, Triple, name_error, triple
 
 
-def _place(rt: Runtime, kind: str) -> Place:
+def _key(rt: Runtime, kind: str) -> tuple[str, Span]:
     rt.count_thing()
-    return place_of(rt, f"{kind}_light")
+    return rt.make_key(f"{kind}_light")
 
 
 def _direction(kind: str, v: Vec3) -> Triple:
@@ -26,9 +27,9 @@ def _direction(kind: str, v: Vec3) -> Triple:
 )  # fmt: skip
 def _dir_light(rt: Runtime, towards: Vec3, colour: Vec3) -> object:
     direction = _direction("dir", towards)
-    place = _place(rt, "dir")
+    key, span = _key(rt, "dir")
     return Light(
-        rt, LightRecord(place.key, 1, "dir", triple(colour), direction=direction, origin=place.span)
+        rt, LightRecord(key, 1, "dir", triple(colour), direction=direction, origin=span)
     )
 
 
@@ -41,10 +42,10 @@ def _point_light(rt: Runtime, position: Vec3, colour: Vec3, *falloff: float) -> 
     cc, cl, cq = falloff
     if not (cc or cl or cq):
         raise name_error("point_light", "cc, cl and cq cannot all be 0")
-    place = _place(rt, "point")
+    key, span = _key(rt, "point")
     record = LightRecord(
-        place.key, 1, "point", triple(colour), triple(position),
-        falloff=(cc, cl, cq), origin=place.span,
+        key, 1, "point", triple(colour), triple(position),
+        falloff=(cc, cl, cq), origin=span,
     )  # fmt: skip
     return Light(rt, record)
 
@@ -59,10 +60,10 @@ def _spot_light(rt: Runtime, position: Vec3, direction: Vec3, *rest: object) -> 
     if angle_in > angle_out:  # type: ignore[operator]
         raise name_error("spot_light", "angle_in cannot be greater than angle_out")
     shines = _direction("spot", direction)
-    place = _place(rt, "spot")
+    key, span = _key(rt, "spot")
     record = LightRecord(
-        place.key, 1, "spot", triple(colour), triple(position), shines,  # type: ignore[arg-type]
-        angle_in=angle_in, angle_out=angle_out, origin=place.span,  # type: ignore[arg-type]
+        key, 1, "spot", triple(colour), triple(position), shines,  # type: ignore[arg-type]
+        angle_in=angle_in, angle_out=angle_out, origin=span,  # type: ignore[arg-type]
     )  # fmt: skip
     return Light(rt, record)
 
@@ -75,9 +76,9 @@ def _spot_light(rt: Runtime, position: Vec3, direction: Vec3, *rest: object) -> 
 def _area_light(rt: Runtime, position: Vec3, direction: Vec3, *rest: object) -> object:
     width, height, colour = rest
     shines = _direction("area", direction)
-    place = _place(rt, "area")
+    key, span = _key(rt, "area")
     record = LightRecord(
-        place.key, 1, "area", triple(colour), triple(position), shines,  # type: ignore[arg-type]
-        size=(width, height), origin=place.span,  # type: ignore[arg-type]
+        key, 1, "area", triple(colour), triple(position), shines,  # type: ignore[arg-type]
+        size=(width, height), origin=span,  # type: ignore[arg-type]
     )  # fmt: skip
     return Light(rt, record)

@@ -17,7 +17,7 @@ from ..runtime import Runtime
 from ..scene import MaterialRecord
 from ..vector import Vec3
 from .material_table import METALS, TEAPOTS, Triple
-from .things import Material, Texture, place_of, triple
+from .things import Material, Texture, triple
 
 BRIGHTEST_METAL = 0.95
 
@@ -35,8 +35,8 @@ def metal_colour(diffuse: Triple, specular: Triple) -> Triple:
 
 
 def _fresh(rt: Runtime, name: str, **values: object) -> Material:
-    place = place_of(rt, "material")
-    return Material(rt, MaterialRecord(place.key, 1, name, origin=place.span, **values))  # type: ignore[arg-type]
+    key, span = rt.make_key("material")
+    return Material(rt, MaterialRecord(key, 1, name, origin=span, **values))  # type: ignore[arg-type]
 
 
 def _declare_teapot(name: str) -> None:
@@ -155,5 +155,5 @@ def _name_material(rt: Runtime, mtl: Material, name: str) -> object:
 
 @HOST.method(Material, "Copy", "", "Another material with the same values.")
 def _copy_material(rt: Runtime, mtl: Material) -> object:
-    place = place_of(rt, "material")
-    return Material(rt, replace(mtl.draft, key=place.key, version=1, origin=place.span))
+    key, span = rt.make_key("material")
+    return Material(rt, replace(mtl.draft, key=key, version=1, origin=span))

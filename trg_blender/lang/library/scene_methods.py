@@ -135,7 +135,7 @@ def _ambient(rt: Runtime, scene: SceneObject, colour: Vec3) -> object:
 @HOST.method(SceneObject, "Render", "", "Hand the frame over and wait for the next.", "undef")
 def _render(rt: Runtime, scene: SceneObject) -> object:
     site = rt.site()
-    origin = site.span if site is not None else Span(rt.program.main, 1, 1, 1, 1)
+    origin = site.span if site is not None else rt.program.start
     return _hand_over(rt, scene, origin)
 
 

@@ -7,21 +7,19 @@ from dataclasses import replace
 from ..bind import HOST
 from ..files import FileError
 from ..runtime import Runtime
-from ..scene import MediumRecord, ShapeRecord, TextureRecord, Vec3 as Triple
-from ..source import Span
+from ..scene import MediumRecord, TextureRecord
 from ..values import TrgError
 from ..vector import Vec3
 from .things import (
     Light,
-    Look,
     Material,
     Medium,
     Placed,
     Shape,
     Texture,
+    Triple,
     multiply,
     name_error,
-    place_of,
     rotation,
     triple,
 )
@@ -29,34 +27,27 @@ from .things import (
 _LOOKS = "mtl: material|medium?, envi: material|medium?"
 
 
-def _look(kind: str, first: object, second: object) -> Look:
-    """Material and medium, in either order, each at most once."""
-    look = Look(None, MediumRecord())
-    given = [value for value in (first, second) if value is not None]
-    if len(given) == 2 and type(given[0]) is type(given[1]):
-        raise name_error(kind, "give one material and one enviroment at most")
-    for value in given:
-        if isinstance(value, Material):
-            look.material = value
-        elif isinstance(value, Medium):
-            look.medium = value.record
-    return look
-
-
 def _make(
     rt: Runtime, kind: str, parameters: tuple[Triple | float | str, ...], looks: tuple[object, object]
 ) -> Shape:
-    look = _look(kind, *looks)
+    """A shape with material and medium, given in either order, each at most once."""
+    first, second = looks
     rt.count_thing()
-    place = place_of(rt, kind)
-    fixed = ShapeRecord(place.key, 1, kind, parameters, place.key, None, origin=place.span)
-    return Shape(rt, fixed, look)
+    shape = Shape(rt, kind, parameters)
+    if first is not None and type(first) is type(second):
+        raise name_error(kind, "give one material and one enviroment at most")
+    for value in (first, second):
+        if isinstance(value, Material):
+            shape.material = value
+        elif isinstance(value, Medium):
+            shape.medium = value.record
+    return shape
 
 
 def find_file(rt: Runtime, name: str) -> str | None:
     """Where a texture or model lies. A missing one is a warning at the call, or an error if strict."""
     site = rt.site()
-    span = site.span if site is not None else Span(rt.program.main, 1, 1, 1, 1)
+    span = site.span if site is not None else rt.program.start
     try:
         path = rt.program.resolver.resolve_file(name, span.file)
     except FileError as error:
@@ -136,7 +127,8 @@ def _triangle(rt: Runtime, p0: Vec3, p1: Vec3, p2: Vec3, a: object, b: object) -
 )  # fmt: skip
 def _model(rt: Runtime, file: str, a: object, b: object) -> object:
     shape = _make(rt, "model", (file,), (a, b))
-    return Shape(rt, replace(shape.fixed, path=find_file(rt, file)), shape.look)
+    shape.path = find_file(rt, file)
+    return shape
 
 
 def _medium(rt: Runtime, decay: float, index: float) -> object:
@@ -156,8 +148,8 @@ for _name in ("enviroment", "environment"):
     "An image, repeated tiles times along u and v.", "texture",
 )  # fmt: skip
 def _texture(rt: Runtime, file: str, tiles: float) -> object:
-    place = place_of(rt, "texture")
-    return Texture(rt, TextureRecord(place.key, file, find_file(rt, file), tiles, place.span))
+    key, span = rt.make_key("texture")
+    return Texture(rt, TextureRecord(key, file, find_file(rt, file), tiles, span))
 
 
 # Methods of shapes and lights.
@@ -196,14 +188,14 @@ _placed_methods(Light)
 
 @HOST.method(Shape, "Material", "mtl: material", "Give it another material.")
 def _set_material(rt: Runtime, shape: Shape, mtl: Material) -> object:
-    shape.look.material = mtl
+    shape.material = mtl
     shape.touch()
     return shape
 
 
 @HOST.method(Shape, "Name", "name: str", "Name it for Blender's outliner.")
 def _name_shape(rt: Runtime, shape: Shape, name: str) -> object:
-    shape.look.name = name
+    shape.name = name
     shape.touch()
     return shape
 
@@ -217,12 +209,11 @@ def _name_light(rt: Runtime, light: Light, name: str) -> object:
 @HOST.method(Shape, "Copy", "", "Another shape that shares the mesh; not yet in the scene.")
 def _copy_shape(rt: Runtime, shape: Shape) -> object:
     rt.count_thing()
-    place = place_of(rt, shape.fixed.kind)
-    return Shape(rt, replace(shape.fixed, key=place.key, origin=place.span), replace(shape.look))
+    return shape.copy()
 
 
 @HOST.method(Light, "Copy", "", "Another light of the same kind; not yet in the scene.")
 def _copy_light(rt: Runtime, light: Light) -> object:
     rt.count_thing()
-    place = place_of(rt, f"{light.draft.kind}_light")
-    return Light(rt, replace(light.draft, key=place.key, origin=place.span))
+    key, span = rt.make_key(f"{light.draft.kind}_light")
+    return Light(rt, replace(light.draft, key=key, origin=span))

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 from ..runtime import Runtime
 from ..scene import (
@@ -20,29 +20,11 @@ from ..scene import (
     TextureRecord,
     Transform,
 )
-from ..source import Span
 from ..values import TrgError, Value
 from ..vector import Vec3
 
 Triple = tuple[float, float, float]
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """Where a thing was made: its key, stable from run to run, and the span of the call."""
-
-    key: str
-    span: Span
-
-
-def place_of(rt: Runtime, kind: str) -> Place:
-    """The place of the call that is running; the k-th thing of a kind made there has number k."""
-    site = rt.site()
-    span = site.span if site is not None else Span(rt.program.main, 1, 1, 1, 1)
-    count = rt.made_at.get((kind, span), 0) + 1
-    rt.made_at[kind, span] = count
-    file = "" if span.file == rt.program.main else f"{span.file}:"
-    return Place(f"{kind}@{file}{span.line}:{span.col}#{count}", span)
+AIR = MediumRecord()
 
 
 def triple(v: Vec3) -> Triple:
@@ -126,24 +108,14 @@ class Material(Value):
         return f"material {self._draft.name}"
 
 
-@dataclass(slots=True)
-class Look:
-    """The part of a shape that can change."""
-
-    material: Material | None
-    medium: MediumRecord
-    transform: Transform = IDENTITY
-    name: str = ""
-
-
 class Placed(Value):
-    """A shape or a light: has a key, a name and a transform, and stands in the scene or not."""
+    """A shape or a light: stands in the scene or not, and can be moved and named."""
 
-    __slots__ = ("key", "origin", "rt")
+    __slots__ = ("rt",)
 
     def touch(self) -> None:
         """Note that the record must be made anew."""
-        raise NotImplementedError
+        self.rt.scene.dirty[self] = None
 
     def move_by(self, change: Callable[[Transform], Transform]) -> None:
         """Replace the transform by `change` of it."""
@@ -153,45 +125,49 @@ class Placed(Value):
 class Shape(Placed):
     """A shape of the scene."""
 
-    __slots__ = ("_fixed", "_record", "look")
+    __slots__ = (
+        "_record", "figure", "key", "material", "medium", "mesh_key", "name", "origin",
+        "parameters", "path", "transform",
+    )  # fmt: skip
     kind = "shape"
 
-    def __init__(self, rt: Runtime, fixed: ShapeRecord, look: Look) -> None:
+    def __init__(self, rt: Runtime, figure: str, parameters: tuple[Triple | float | str, ...]) -> None:
         self.rt = rt
-        self.key = fixed.key
-        self.origin = fixed.origin
-        self._fixed = fixed
+        self.figure = figure
+        self.parameters = parameters
+        self.key, self.origin = rt.make_key(figure)
+        self.mesh_key = self.key
+        self.material: Material | None = None
+        self.medium = AIR
+        self.transform: Transform = IDENTITY
+        self.name = ""
+        self.path: str | None = None
         self._record: ShapeRecord | None = None
-        self.look = look
 
-    @property
-    def fixed(self) -> ShapeRecord:
-        """What cannot change: kind, parameters, mesh key, path, origin."""
-        return self._fixed
-
-    def touch(self) -> None:
-        self.rt.scene.dirty[self] = None
+    def copy(self) -> Shape:
+        """Another shape that shares the mesh."""
+        made = Shape(self.rt, self.figure, self.parameters)
+        made.mesh_key, made.path, made.name = self.mesh_key, self.path, self.name
+        made.material, made.medium, made.transform = self.material, self.medium, self.transform
+        return made
 
     def move_by(self, change: Callable[[Transform], Transform]) -> None:
-        self.look.transform = change(self.look.transform)
+        self.transform = change(self.transform)
         self.touch()
 
     def record(self) -> ShapeRecord:
-        look, last = self.look, self._record
-        made = replace(
-            self._fixed,
-            version=1 if last is None else last.version,
-            material=None if look.material is None else look.material.record(),
-            medium=look.medium,
-            transform=look.transform,
-            name=look.name,
-        )
-        if made != last:
-            self._record = made if last is None else replace(made, version=last.version + 1)
-        return self._record  # type: ignore[return-value]
+        last = self._record
+        material = None if self.material is None else self.material.record()
+        now = (material, self.medium, self.transform, self.name)
+        if last is None or now != (last.material, last.medium, last.transform, last.name):
+            last = self._record = ShapeRecord(
+                self.key, 1 if last is None else last.version + 1, self.figure, self.parameters,
+                self.mesh_key, *now, self.path, self.origin,
+            )  # fmt: skip
+        return last
 
     def shown(self) -> str:
-        return self._fixed.kind
+        return self.figure
 
 
 class Light(Placed):
@@ -202,8 +178,6 @@ class Light(Placed):
 
     def __init__(self, rt: Runtime, record: LightRecord) -> None:
         self.rt = rt
-        self.key = record.key
-        self.origin = record.origin
         self._draft = record
         self._record: LightRecord | None = None
 
@@ -214,9 +188,6 @@ class Light(Placed):
     def edit(self, **changes: object) -> None:
         self._draft = replace(self._draft, **changes)  # type: ignore[arg-type]
         self.touch()
-
-    def touch(self) -> None:
-        self.rt.scene.dirty[self] = None
 
     def move_by(self, change: Callable[[Transform], Transform]) -> None:
         self.edit(transform=change(self._draft.transform))
@@ -230,14 +201,6 @@ class Light(Placed):
 
     def shown(self) -> str:
         return f"{self._draft.kind}_light"
-
-
-@dataclass(slots=True)
-class Contents:
-    """What stands in the scene, in the order of Add."""
-
-    shapes: dict[Shape, ShapeRecord | None] = field(default_factory=dict)
-    lights: dict[Light, LightRecord | None] = field(default_factory=dict)
 
 
 def multiply(a: Transform, b: Transform) -> Transform:
