@@ -16,6 +16,7 @@ from .reference_ggx import (
     ggx_distribution,
     pdf_visible_normal,
     sample_visible_normal,
+    smith_lambda,
     smith_shadowing,
 )
 from .reference_math import Frame, build_frame, dot, normalize, sample_cosine
@@ -187,10 +188,12 @@ def delta_weight(bsdf: Bsdf, lobe: NDArray[np.int64], wi_world: Float64) -> Floa
     surface, cosine = bsdf.surface, bsdf.wo[:, 2]
     fresnel = fresnel_dielectric(cosine, bsdf.eta)
     ones = np.ones((len(cosine), 3))
+    # Rough glass that does not bend light still masks it: the limit of evaluate_refraction.
+    masked = masking_straight_on(bsdf)
     by_lobe = [
         bsdf.metal[:, None] * fresnel_schlick(cosine, surface.material.base),
         (bsdf.glass * fresnel)[:, None] * ones,
-        (bsdf.glass * (1.0 - fresnel))[:, None] * np.sqrt(surface.material.base),
+        (bsdf.glass * (1.0 - fresnel) * masked)[:, None] * np.sqrt(surface.material.base),
         (bsdf.opaque * coat_fresnel(surface, cosine))[:, None] * ones,
         0.0 * ones,
     ]
@@ -200,3 +203,9 @@ def delta_weight(bsdf: Bsdf, lobe: NDArray[np.int64], wi_world: Float64) -> Floa
     side = np.where(lobe == GLASS_REFRACTION, -1.0, 1.0)
     right_side = (side * dot(wi_world, surface.ng) > 0.0) & (side * dot(wi_world, surface.ns) > 0.0)
     return np.where(right_side[:, None], weight, 0.0)
+
+
+def masking_straight_on(bsdf: Bsdf) -> Float64:
+    """G2 / G1 of light that goes straight on through facets; 1 for an ideal interface."""
+    hidden = smith_lambda(bsdf.wo, bsdf.surface.material.alpha)
+    return np.where(bsdf.ideal, 1.0, (1.0 + hidden) / (1.0 + 2.0 * hidden))
