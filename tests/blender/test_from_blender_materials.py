@@ -80,7 +80,7 @@ def test_an_empty_slot_is_grey_lambert():
     [
         ("BsdfDiffuse", {"Color": (0.2, 0.4, 0.6, 1)}, {"base_g": 0.4, "specular": 0.0}),
         ("BsdfGlossy", {"Roughness": 0.3}, {"metallic": 1.0, "roughness": 0.3}),
-        ("BsdfGlass", {"IOR": 1.33, "Color": (0.5, 1, 1, 1)}, {"transmission": 1, "ior": 1.33, "base_r": 0.25}),
+        ("BsdfGlass", {"IOR": 1.3, "Color": (0.5, 1, 1, 1)}, {"transmission": 1, "ior": 1.3, "base_r": 0.25}),
         ("Emission", {"Strength": 3.0}, {"emission_r": 3.0, "base_r": 0.0, "specular": 0.0}),
         ("BsdfTransparent", {}, {"transmission": 1.0, "ior": 1.0, "roughness": 0.0}),
     ],

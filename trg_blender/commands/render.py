@@ -123,7 +123,8 @@ class RenderCommand:
             try:
                 bpy.ops.wm.open_mainfile(filepath=path, load_ui=False)
             except RuntimeError as error:
-                raise RenderFailed(f"trg: error: {args.file}: {_operator_message(error)}", cli.WRONG) from error
+                message = f"trg: error: {args.file}: {_operator_message(error)}"
+                raise RenderFailed(message, cli.WRONG) from error
         else:
             bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
             bpy.context.scene.trg.program = bpy.data.texts.load(path)

@@ -201,7 +201,7 @@ def settings_of(
 ) -> RenderSettings:
     """Render settings from `scene.trg`, what its program asked for (`modes`), and Blender's own.
 
-    A program's wish that this machine or version cannot fulfil is a warning; the user's own is an error later.
+    A program's wish that cannot be fulfilled here is a warning; the user's own is an error later.
     """
     own = scene.trg
     device, accel = own.device, own.accel

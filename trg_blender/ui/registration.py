@@ -7,9 +7,9 @@ import atexit
 import bpy
 
 from ..engine import render_engine, run_text
-from . import panels, properties
+from . import command, panels, properties
 
-PARTS = (properties, render_engine, run_text, panels)
+PARTS = (properties, render_engine, run_text, panels, command)
 
 
 def register() -> None:
