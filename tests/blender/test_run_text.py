@@ -255,6 +255,18 @@ def test_what_fails_in_a_handler_waits_for_the_engine_once(with_program):
     assert run_text.take_pending_error() is None
 
 
+def test_a_failed_frame_is_tried_once_a_render(with_program):
+    scene = with_program.scene
+    with_program.text.from_string("S = ;")
+    run_text._on_render_init(scene)
+    run_text._on_render_pre(scene)
+    assert len(run_text.program_log(scene)) == 1
+    assert run_text.take_pending_error(scene) is not None
+    with_program.text.from_string(MOVING)
+    run_text._on_render_init(scene)
+    assert run_text.take_pending_error(scene) is None
+
+
 def test_a_program_cannot_be_started_while_one_runs(with_program):
     scene = with_program.scene
     inner = []

@@ -9,6 +9,7 @@ counts) and `render_pre` (each frame). A handler cannot stop a render, so what w
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import bpy
 from bpy.app.handlers import persistent
@@ -19,17 +20,25 @@ from .to_blender.program_runner import ProgramFailure, ProgramOutcome, ProgramRu
 ENGINE_ID = "TRG"
 
 
+@dataclass(frozen=True, slots=True)
+class _Pending:
+    """A failure that waits for the engine."""
+
+    frame: int
+    failure: ProgramFailure
+
+
 class ProgramTable:
     """The runners of all scenes, what went wrong in handlers, and the way to the main thread."""
 
     def __init__(self) -> None:
         self.main_thread = MainThread()
-        self._runners: dict[int, ProgramRunner] = {}
-        self._pending: dict[str, ProgramFailure] = {}
+        self._runners: dict[str, ProgramRunner] = {}
+        self._pending: dict[str, _Pending] = {}
         self._is_running = False
 
     def runner_of(self, scene: bpy.types.Scene) -> ProgramRunner:
-        return self._runners.setdefault(scene.session_uid, ProgramRunner())
+        return self._runners.setdefault(scene.name, ProgramRunner())
 
     def forget_all(self) -> None:
         self._runners.clear()
@@ -49,14 +58,22 @@ class ProgramTable:
             self._is_running = False
 
     def run_in_handler(self, scene: bpy.types.Scene) -> None:
-        """Build the scene's current frame on the main thread; keep what goes wrong for the engine."""
+        """Build the scene's current frame on the main thread; keep what goes wrong for the engine.
+
+        A frame that failed is not tried again before the engine has taken the failure.
+        """
         if scene.render.engine != ENGINE_ID or program_of(scene) is None:
+            self.drop_pending(scene)
             return
-        self._pending.pop(scene.name, None)
+        frame = frame_of(scene)
+        pending = self._pending.pop(scene.name, None)
+        if pending is not None and pending.frame == frame:
+            self._pending[scene.name] = pending
+            return
 
         def work() -> ProgramOutcome | None:
-            outcome = self.run(scene, frame_of(scene))
-            _settle_view_layers(scene)
+            outcome = self.run(scene, frame)
+            _settle_view_layers()
             return outcome
 
         try:
@@ -69,11 +86,16 @@ class ProgramTable:
                 f"internal error while running the program: {type(error).__name__}: {error}"
             )
         if failure is not None:
-            self._pending[scene.name] = failure
+            self._pending[scene.name] = _Pending(frame, failure)
 
     def take_pending(self, scene: bpy.types.Scene | None) -> ProgramFailure | None:
         name = scene.name if scene is not None else next(iter(self._pending), "")
-        return self._pending.pop(name, None)
+        pending = self._pending.pop(name, None)
+        return None if pending is None else pending.failure
+
+    def drop_pending(self, scene: bpy.types.Scene) -> None:
+        """Forget a failure of an earlier render."""
+        self._pending.pop(scene.name, None)
 
 
 programs = ProgramTable()
@@ -107,7 +129,7 @@ def frame_of(scene: bpy.types.Scene) -> int:
     return max(scene.frame_current - scene.frame_start + 1, 1)
 
 
-def _settle_view_layers(scene: bpy.types.Scene) -> None:
+def _settle_view_layers() -> None:
     """Evaluate what windows show now, on this thread, so that none does it while the render goes on."""
     manager = bpy.context.window_manager
     for window in manager.windows if manager is not None else ():
@@ -116,6 +138,7 @@ def _settle_view_layers(scene: bpy.types.Scene) -> None:
 
 @persistent
 def _on_render_init(scene: bpy.types.Scene, *_: object) -> None:
+    programs.drop_pending(scene)
     programs.run_in_handler(scene)
 
 

@@ -31,8 +31,8 @@ IMPORTED_ID_LISTS = (
 # .ply and .stl hold bare coordinates: they are TRG's. .glb and .gltf have Y up by their standard and
 # Blender's importer turns them.
 IMPORTERS: dict[str, tuple[bool, Callable[[str], object]]] = {
-    ".glb": (True, lambda path: bpy.ops.import_scene.gltf(filepath=path)),
-    ".gltf": (True, lambda path: bpy.ops.import_scene.gltf(filepath=path)),
+    ".glb": (True, lambda path: bpy.ops.import_scene.gltf(filepath=path, loglevel=50)),
+    ".gltf": (True, lambda path: bpy.ops.import_scene.gltf(filepath=path, loglevel=50)),
     ".ply": (False, lambda path: bpy.ops.wm.ply_import(filepath=path, forward_axis="Y", up_axis="Z")),
     ".stl": (False, lambda path: bpy.ops.wm.stl_import(filepath=path, forward_axis="Y", up_axis="Z")),
 }
