@@ -2,7 +2,8 @@
 
 Two ways give the same arrays: `safe` asks Blender to copy everything (foreach_get), `fast` looks at
 the loop triangles in place. The layout that `fast` relies on is not part of Blender's interface, so
-`fast_path_works` compares both on a small mesh and the caller keeps what it learnt.
+`view_in_place` proves it on the very elements it is about to use. (A mesh made for the proof would not
+do: making data while Blender renders an animation crashes it at the next frame.)
 """
 
 from __future__ import annotations
@@ -53,43 +54,35 @@ def read_mesh(mesh: bpy.types.Mesh, request: MeshRequest, warnings: list[str]) -
     return _without_broken_triangles(arrays, warnings)
 
 
-def fast_path_works() -> bool:
-    """True when the in-place views equal Blender's own copies, on a mesh of two quads."""
-    mesh = bpy.data.meshes.new(".trg_layout_check")
-    try:
-        points = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (2, 0, 1), (2, 1, 1)]
-        mesh.from_pydata(points, [], [(0, 1, 2, 3), (1, 4, 5, 2)])
-        mesh.calc_loop_triangles()
-        packed = (
-            _is_packed(mesh.loop_triangles, 12)
-            and _is_packed(mesh.attributes[".corner_vert"].data, 4)
-            and _is_packed(mesh.vertex_normals, 12)
-        )
-        return packed and all(
-            np.array_equal(read(mesh, True), read(mesh, False))
-            for read in (_corner_triangles, _corner_vertices, _vertex_normals)
-        )
-    finally:
-        bpy.data.meshes.remove(mesh)
+def view_in_place(
+    collection: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int
+) -> NDArray[Any] | None:
+    """(n, width) view of Blender's own memory, valid while the mesh is; None when it is not laid out so.
 
-
-def _is_packed(collection: bpy.types.bpy_prop_collection, stride: int) -> bool:
-    """Elements lie `stride` bytes apart, so that a view over all of them stays in bounds."""
+    `collection` is not empty. First, second and last element have to lie where a packed array has them, and
+    the last has to read the same both ways.
+    """
+    count = len(collection)
+    kind = ctypes.c_int32 if dtype is np.int32 else ctypes.c_float
     first = collection[0].as_pointer()
-    return all(each.as_pointer() == first + stride * k for k, each in enumerate(collection))
+    stride = ctypes.sizeof(kind) * width
+    if any(collection[k].as_pointer() != first + stride * k for k in {min(1, count - 1), count - 1}):
+        return None
+    view = np.ctypeslib.as_array((kind * (count * width)).from_address(first)).reshape(count, width)
+    last = np.array(getattr(collection[count - 1], name), dtype).reshape(-1)
+    return view if np.array_equal(view[-1], last, equal_nan=dtype is not np.int32) else None
 
 
 def _column(
     collection: bpy.types.bpy_prop_collection, name: str, dtype: type, width: int, fast: bool
 ) -> NDArray[Any]:
-    """(n, width) values of property `name`: in place when `fast` (valid while the mesh is), else a copy."""
+    """(n, width) values of property `name`: in place when `fast` and possible, else a copy."""
     count = len(collection)
     if not count:
         return np.empty((0, width), dtype)
-    if fast:
-        kind = ctypes.c_int32 if dtype is np.int32 else ctypes.c_float
-        memory = (kind * (count * width)).from_address(collection[0].as_pointer())
-        return np.ctypeslib.as_array(memory).reshape(count, width)
+    view = view_in_place(collection, name, dtype, width) if fast else None
+    if view is not None:
+        return view
     flat = np.empty(count * width, dtype)
     collection.foreach_get(name, flat)
     return flat.reshape(count, width)

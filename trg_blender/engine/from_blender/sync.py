@@ -13,7 +13,7 @@ from ..scene_arrays import Float32, InstanceArrays, MeshArrays, SceneArrays
 from .camera import read_camera
 from .lights import read_light
 from .materials import MaterialTable
-from .meshes import MeshRequest, fast_path_works, read_mesh
+from .meshes import MeshRequest, read_mesh
 from .objects import Found, MeshGroup, find_objects
 from .world import read_world
 
@@ -23,9 +23,10 @@ FLAT_DETERMINANT = 1e-18
 
 @dataclass(slots=True)
 class SceneReader:
-    """Reads depsgraphs; remembers only whether this Blender allows the fast way through its meshes."""
+    """Reads depsgraphs."""
 
-    fast: bool = field(default_factory=fast_path_works)
+    fast: bool = True
+    """look at Blender's mesh arrays in place where that is safe"""
 
     def read(
         self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, size: tuple[int, int]
