@@ -134,6 +134,13 @@ enter() {
     unshare --mount --pid --fork --kill-child bash -c "$INSIDE" enter "$target" "$ROOT" "$PWD" "$@"
 }
 
+# The same in place of this shell: whoever kills it kills all that runs inside.
+enter_for_good() {
+    local target=$1
+    shift
+    exec unshare --mount --pid --fork --kill-child bash -c "$INSIDE" enter "$target" "$ROOT" "$PWD" "$@"
+}
+
 # The part that runs in the namespace, before the command.
 INSIDE='
 set -euo pipefail
@@ -191,15 +198,14 @@ main() {
             version=$(choose_installed "$version")
             require_root
             if [ "$gui" = 1 ]; then
-                enter "$CACHE/$version" bash -c "$GUI" gui "$@"
-            else
-                enter "$CACHE/$version" "$@"
+                set -- bash -c "$GUI" gui "$@"
             fi
+            enter_for_good "$CACHE/$version" "$@"
             ;;
         shell)
             version=$(choose_installed "$version")
             require_root
-            enter "$CACHE/$version" bash -i
+            enter_for_good "$CACHE/$version" bash -i
             ;;
         remove) rm -rf --one-file-system "${CACHE:?}/${version:?remove needs --version}" ;;
         *) usage ;;

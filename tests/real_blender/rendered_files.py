@@ -10,8 +10,7 @@ import OpenEXR
 ROOT = Path(__file__).resolve().parents[2]
 FENCE = ROOT / "examples" / "fence.trg"
 
-GOOD_PROGRAM = """include("stl\\\\rt\\\\trg_raytrace.trg");
-Scene = scene();
+GOOD_PROGRAM = """Scene = scene();
 Scene.Add(plane(vec3(0, 1, 0), 0, material::silver()));
 Scene.Add(tor(vec3(0, 1, 0), 0.4, 1.5, material::green_plastic()));
 Scene.Add(dir_light(vec3(-7, 5, 8), vec3(1, 1, 1)));
@@ -24,8 +23,8 @@ while (1)
 }
 """
 
-# The second line calls something that does not exist.
-FAULTY_PROGRAM = 'include("stl\\\\rt\\\\trg_raytrace.trg");\nScene = scene(;\n'
+# The bracket of the second line is never closed.
+FAULTY_PROGRAM = "a = 1;\nScene = scene(;\n"
 
 
 def write_program(directory: Path, name: str, text: str) -> Path:

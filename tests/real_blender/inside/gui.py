@@ -15,9 +15,11 @@ import bpy
 from mathutils import Euler
 
 MODE, OUT = sys.argv[sys.argv.index("--") + 1 :]
+# A key code: by its name xdotool finds F12 on a level of the key that wants Alt held.
+F12, ESCAPE = "96", "Escape"
 TICK_S = 0.05
 ESCAPE_AFTER_S = 3.0
-GIVE_UP_S = 200.0
+GIVE_UP_S = 120.0
 
 seen = {"mode": MODE, "frames": 0, "completed": False, "cancelled": False, "draws": 0, "timed_out": False}
 clock = {"start": 0.0, "escape": 0.0}
@@ -26,6 +28,10 @@ clock = {"start": 0.0, "escape": 0.0}
 def note(**facts):
     """Keeps facts; called from Blender's render thread too, where nothing else may be touched."""
     seen.update(facts)
+
+
+def note_cancel(*_):
+    note(cancelled=True, seconds_after_escape=time.monotonic() - clock["escape"])
 
 
 def count_frame(*_):
@@ -45,9 +51,17 @@ def viewport():
     return window, area, region, area.spaces.active
 
 
-def press(key):
-    """A real key press: X server, window events and keymap take part."""
-    subprocess.run(["xdotool", "key", key], check=True)
+def xdotool(*arguments):
+    """Real input: X server, window events and keymap take part."""
+    return subprocess.run(["xdotool", *arguments], check=True, capture_output=True, text=True).stdout
+
+
+def point_at_viewport():
+    """Gives the window the keyboard, which no window manager does here, and puts the mouse over the 3D view."""
+    window = xdotool("search", "--onlyvisible", "--class", "blender").split()[0]
+    xdotool("windowfocus", window)
+    xdotool("mousemove", "500", "450")
+    bpy.app.timers.register(begin, first_interval=1.0)
 
 
 def begin():
@@ -57,8 +71,7 @@ def begin():
         with bpy.context.temp_override(window=window, area=area, region=region):
             bpy.ops.render.render("INVOKE_DEFAULT", animation=True)
     else:
-        subprocess.run(["xdotool", "mousemove", "500", "450"], check=True)
-        press("F12")
+        xdotool("key", F12)
     bpy.app.timers.register(watch, first_interval=TICK_S)
 
 
@@ -77,13 +90,11 @@ def watch():
     if MODE == "cancel" and not clock["escape"] and passed > ESCAPE_AFTER_S:
         note(running_before_escape=bpy.app.is_job_running("RENDER"))
         clock["escape"] = time.monotonic()
-        press("Escape")
+        xdotool("key", ESCAPE)
     over = (seen["completed"] or seen["cancelled"]) and not bpy.app.is_job_running("RENDER")
     if not over and passed < GIVE_UP_S:
         return TICK_S
     note(timed_out=not over, seconds=passed)
-    if clock["escape"]:
-        note(seconds_after_escape=time.monotonic() - clock["escape"])
     bpy.app.timers.register(finish, first_interval=1.0)
     return None
 
@@ -100,8 +111,8 @@ def finish():
 
 bpy.app.handlers.render_post.append(count_frame)
 bpy.app.handlers.render_complete.append(lambda *_: note(completed=True))
-bpy.app.handlers.render_cancel.append(lambda *_: note(cancelled=True))
+bpy.app.handlers.render_cancel.append(note_cancel)
 bpy.types.SpaceView3D.draw_handler_add(count_draw, (), "WINDOW", "POST_PIXEL")
 bpy.context.preferences.view.show_splash = False
 bpy.context.preferences.view.render_display_type = "WINDOW" if MODE == "still" else "NONE"
-bpy.app.timers.register(begin, first_interval=2.0)
+bpy.app.timers.register(point_at_viewport, first_interval=2.0)
