@@ -12,11 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from ...lang.scene import ShapeRecord
+from ...lang.scene import IDENTITY, ShapeRecord
 from . import shape_meshes
 from .mesh_data import MeshData, transformed
 from .models import MeshContents
-from .transforms import matrix_of_rows, scaling, translation
+from .transforms import matrix_of_rows, placing
 
 Float64 = NDArray[np.float64]
 
@@ -44,6 +44,8 @@ def place_shape(shape: ShapeRecord, model_recipe: Callable[[ShapeRecord], MeshRe
     if shape.kind == "model":
         return Placement(model_recipe(shape), matrix_of_rows(shape.transform))
     recipe, local = PLACERS[shape.kind](*shape.parameters)
+    if shape.transform == IDENTITY:
+        return Placement(recipe, local)
     return Placement(recipe, matrix_of_rows(shape.transform) @ local)
 
 
@@ -57,7 +59,7 @@ def bake_linear_part(placement: Placement) -> Placement:
         contents = source.build()
         return replace(contents, mesh=transformed(contents.mesh, linear))
 
-    return Placement(MeshRecipe(f"{source.key}|{digits}", build), translation(placement.matrix[:3, 3]))
+    return Placement(MeshRecipe(f"{source.key}|{digits}", build), placing(placement.matrix[:3, 3]))
 
 
 def _recipe(key: str, build_mesh: Callable[..., MeshData], *arguments: object) -> MeshRecipe:
@@ -66,16 +68,15 @@ def _recipe(key: str, build_mesh: Callable[..., MeshData], *arguments: object) -
 
 def _place_sphere(centre: Vector, radius: float) -> tuple[MeshRecipe, Float64]:
     recipe = _recipe("sphere", shape_meshes.sphere_mesh)
-    return recipe, translation(centre) @ scaling((radius, radius, radius))
+    return recipe, placing(centre, (radius, radius, radius))
 
 
 def _place_box(corner1: Vector, corner2: Vector) -> tuple[MeshRecipe, Float64]:
-    low, high = np.minimum(corner1, corner2), np.maximum(corner1, corner2)
-    size = tuple((high - low).tolist())
-    centre = translation((low + high) / 2)
+    size = tuple(abs(b - a) for a, b in zip(corner1, corner2, strict=True))
+    centre = tuple((a + b) / 2 for a, b in zip(corner1, corner2, strict=True))
     if min(size) > 0.0:
-        return _recipe("box", shape_meshes.box_mesh), centre @ scaling(size)
-    return _recipe(f"box:{size!r}", shape_meshes.box_mesh, size), centre
+        return _recipe("box", shape_meshes.box_mesh), placing(centre, size)
+    return _recipe(f"box:{size!r}", shape_meshes.box_mesh, size), placing(centre)
 
 
 def _place_plane(normal: Vector, distance: float) -> tuple[MeshRecipe, Float64]:
@@ -93,30 +94,30 @@ def _place_plane(normal: Vector, distance: float) -> tuple[MeshRecipe, Float64]:
 def _place_torus(centre: Vector, tube: float, ring: float) -> tuple[MeshRecipe, Float64]:
     ratio = tube / ring
     recipe = _recipe(f"tor:{ratio!r}", shape_meshes.torus_mesh, ratio)
-    return recipe, translation(centre) @ scaling((ring, ring, ring))
+    return recipe, placing(centre, (ring, ring, ring))
 
 
 def _place_cone(base: Vector, radius: float, height: float) -> tuple[MeshRecipe, Float64]:
     recipe = _recipe("conus", shape_meshes.cone_mesh)
-    return recipe, translation(base) @ scaling((radius, height, radius))
+    return recipe, placing(base, (radius, height, radius))
 
 
 def _place_cylinder(base: Vector, radius: float, height: float) -> tuple[MeshRecipe, Float64]:
     recipe = _recipe("cylinder", shape_meshes.cylinder_mesh)
-    return recipe, translation(base) @ scaling((radius, height, radius))
+    return recipe, placing(base, (radius, height, radius))
 
 
 def _place_fence(centre: Vector, radius: float, height: float, count: float) -> tuple[MeshRecipe, Float64]:
     key = f"fence:{float(radius)!r}:{float(height)!r}:{int(count)}"
     recipe = _recipe(key, shape_meshes.fence_mesh, radius, height, int(count))
-    return recipe, translation(centre)
+    return recipe, placing(centre)
 
 
 def _place_triangle(p0: Vector, p1: Vector, p2: Vector) -> tuple[MeshRecipe, Float64]:
     first, second = np.subtract(p1, p0), np.subtract(p2, p0)
     digits = ",".join(repr(x) for x in (*first.tolist(), *second.tolist()))
     recipe = _recipe(f"triangle:{digits}", shape_meshes.triangle_mesh, first, second)
-    return recipe, translation(p0)
+    return recipe, placing(p0)
 
 
 PLACERS: dict[str, Callable[..., tuple[MeshRecipe, Float64]]] = {

@@ -32,14 +32,11 @@ def matrix_of_rows(rows: Sequence[float]) -> Float64:
     return matrix
 
 
-def translation(offset: Sequence[float]) -> Float64:
-    matrix = np.eye(4)
-    matrix[:3, 3] = offset
-    return matrix
-
-
-def scaling(factors: Sequence[float]) -> Float64:
-    return np.diag([factors[0], factors[1], factors[2], 1.0])
+def placing(position: Sequence[float], scale: Sequence[float] = (1.0, 1.0, 1.0)) -> Float64:
+    """4 x 4 matrix that scales along the axes and then moves the origin to `position`."""
+    x, y, z = position
+    a, b, c = scale
+    return np.array(((a, 0.0, 0.0, x), (0.0, b, 0.0, y), (0.0, 0.0, c, z), (0.0, 0.0, 0.0, 1.0)))
 
 
 def decompose(matrices: Float64) -> Decomposition:

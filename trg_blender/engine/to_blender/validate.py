@@ -6,9 +6,9 @@ The language checks its arguments; this is the border, and it trusts nobody.
 from __future__ import annotations
 
 from collections.abc import Iterable
-from math import isfinite
 
 from ...lang.scene import (
+    IDENTITY,
     CameraRecord,
     LightRecord,
     MaterialRecord,
@@ -162,10 +162,12 @@ def _problem(rule: str, value: object) -> str:
 
 
 def _all_usable(numbers: Iterable[object]) -> bool:
-    return all(isinstance(n, int | float) and isfinite(n) and abs(n) <= MAX_LENGTH for n in numbers)
+    return all(isinstance(n, (int, float)) and -MAX_LENGTH <= n <= MAX_LENGTH for n in numbers)
 
 
 def _check_transform(transform: tuple[float, ...], label: str, origin: Span | None, key: str) -> None:
+    if transform is IDENTITY:
+        return
     if len(transform) != 12 or not _all_usable(transform):
         raise SceneError(f"{label}: its transform is not made of finite numbers", origin, key)
 
