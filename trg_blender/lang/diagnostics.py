@@ -99,7 +99,7 @@ def build_diagnostic(notice: Notice, severity: Severity, language: str) -> Diagn
 
 def closest(name: str, candidates: object) -> str | None:
     """The candidate that `name` may be a typing error of, or None."""
-    near = [c for c in candidates if abs(len(c) - len(name)) <= 2][:4000]  # type: ignore[attr-defined]
+    near = [c for c in candidates if abs(len(c) - len(name)) <= 2][:1000]  # type: ignore[attr-defined]
     folded = {c.lower(): c for c in near}
     if name.lower() in folded:
         return folded[name.lower()]

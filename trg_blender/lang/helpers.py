@@ -87,7 +87,7 @@ class Helpers:
         """The old value of `x++`: a variable without one counts as 0."""
         if type(value) is not Undef:
             return value
-        self.rt.warn_undefined(value)
+        self.rt.warn_undefined(0)
         return 0.0
 
     def _running(self) -> str:

@@ -17,7 +17,7 @@ class Limits:
 
     max_steps: int = 20_000_000
     """Turns of loops, calls, and blocks of straight statements."""
-    max_seconds: float = 10.0
+    max_seconds: float = 6.0
     """CPU seconds of the thread that runs the program."""
     max_string: int = 65_536
     """Characters of one string."""

@@ -191,6 +191,8 @@ class _Resolver:
         self.bag.add(Notice(code, path.span, {"name": path.name}, hint, None, related))
 
     def _not_defined(self, path: ast.Path, candidates: list[str]) -> None:
+        if self.bag.full:
+            return
         values = {"name": path.name}
         guess = closest(path.name, candidates)
         if guess is None:

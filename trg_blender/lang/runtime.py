@@ -186,15 +186,17 @@ class Runtime:
         """One warning for each place."""
         self.bag.add(Notice(code, span, values, hint), "warning")
 
-    def warn_undefined(self, value: object, right: object = None) -> None:
-        """Warn that a variable without a value counted as 0, at the variable where it is known."""
+    def warn_undefined(self, operand: int | None) -> None:
+        """Warn that an operand without a value counted as 0, at the operand.
+
+        None: it is not known which one; the first that is a variable is taken.
+        """
         site = self.site()
         if site is None:
             return
-        span = site.span
-        if site.operands:
-            frame_side = 1 if value is right and len(site.operands) > 1 else 0
-            span = site.operands[frame_side]
+        if operand is None:
+            operand = next((n for n, name in enumerate(site.names) if name), 0)
+        span = site.operands[operand] if operand < len(site.operands) else site.span
         self.warn("W701", span)
 
     def write_line(self, text: str) -> None:

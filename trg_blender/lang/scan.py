@@ -15,6 +15,7 @@ KEYWORDS = frozenset(
 )
 RESERVED_WORDS = {"in": "reserved", "true": "write_1", "false": "write_0"}
 MAX_NUMBER_LENGTH = 64
+MAX_STRING_LENGTH = 65_536
 ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "0": "\0", '"': '"', "\\": "\\"}
 
 # The string and comment alternatives are unrolled: the short forms need a backtracking entry for
@@ -23,6 +24,7 @@ _TOKEN = re.compile(
     r"""
     (?P<space>[ \t\n\f\v]+)
   | (?P<comment>//[^\n]*|/\*[^*]*\*+(?:[^/*][^*]*\*+)*/)
+  | (?P<unclosed>/\*)
   | (?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)
   | (?P<string>"[^"\\\n]*(?:\\.[^"\\\n]*)*")
   | (?P<name>[^\W\d]\w*)
@@ -78,6 +80,10 @@ class _Scanner:
         kind, start, end = match.lastgroup or "", match.start(), match.end()
         if kind in ("space", "comment"):
             self._count_lines(start, end)
+        elif kind == "unclosed":
+            self._error("E106", start, end)
+            self._count_lines(start, len(self.source.text))
+            return len(self.source.text)
         elif kind == "name":
             self._take_name(match.group(), start, end)
         elif kind == "number":
@@ -119,6 +125,8 @@ class _Scanner:
                     at = start + 1 + found.start()
                     self._error("E105", at, at + 2, "double_backslash", text=found.group())
             body = _ESCAPE.sub(lambda m: ESCAPES.get(m.group(1), m.group()), body)
+        if len(body) > MAX_STRING_LENGTH:
+            self._error("E108", start, end, None, limit=MAX_STRING_LENGTH)
         self.tokens.append(Token("string", text, body, self._span(start, end)))
 
     def _skip_unknown(self, start: int) -> int:
@@ -130,10 +138,6 @@ class _Scanner:
             self._error("E104", start, end, "close_string")
             self.tokens.append(Token("string", text[start:end], "", self._span(start, end)))
             return end
-        if text.startswith("/*", start):
-            self._error("E106", start, start + 2)
-            self._count_lines(start, len(text))
-            return len(text)
         end = start + 1
         if character == "'":
             end = _QUOTED.match(text, start).end()  # type: ignore[union-attr]

@@ -118,7 +118,7 @@ class Undef(Value):
 
     def __eq__(self, other: object) -> bool:
         if type(other) is float:
-            self.rt.warn_undefined(self)
+            self.rt.warn_undefined(None)
             return other == 0.0
         return self is other
 
@@ -230,7 +230,7 @@ def compute(op: str, left: object, right: object) -> object:
     if undefined and rt is not None:
         if Str in (type(left), type(right)):
             raise TrgError("E411", op=op)
-        rt.warn_undefined(left if type(left) is Undef else right, right)
+        _warn_operands(rt, left, right)
         numbers = [0.0 if type(value) is Undef else value for value in (left, right)]
         return ARITHMETIC[op](*numbers)
     raise incomputable(op, type_name(left), type_name(right))
@@ -251,23 +251,28 @@ def compare(op: str, left: object, right: object) -> object:
 
     Python may call this with the operands exchanged; the place in the source tells.
     """
-    if Undef in (type(left), type(right)) and Str not in (type(left), type(right)):
-        rt = runtime_of(left, right)
-        if rt is not None:
-            rt.warn_undefined(left if type(left) is Undef else right, right)
-        numbers = [0.0 if type(value) is Undef else value for value in (left, right)]
-        return COMPARISON[op](*numbers)
     rt = runtime_of(left, right)
     site = rt.site() if rt is not None else None
     if site is not None and site.op in COMPARISON and site.op != op:
         op, left, right = site.op, right, left
+    kinds = (type(left), type(right))
+    if rt is not None and Undef in kinds and Str not in kinds:
+        _warn_operands(rt, left, right)
+        numbers = [0.0 if type(value) is Undef else value for value in (left, right)]
+        return COMPARISON[op](*numbers)
     raise TrgError("E412", op=op, left=type_name(left), right=type_name(right))
+
+
+def _warn_operands(rt: Runtime, *operands: object) -> None:
+    for index, value in enumerate(operands):
+        if type(value) is Undef:
+            rt.warn_undefined(index)
 
 
 def negate(value: object) -> object:
     rt = runtime_of(value)
     if type(value) is Undef and rt is not None:
-        rt.warn_undefined(value)
+        rt.warn_undefined(0)
         return -0.0
     raise TrgError("E413", op="-", kind=type_name(value))
 
@@ -275,7 +280,7 @@ def negate(value: object) -> object:
 def affirm(value: object) -> object:
     rt = runtime_of(value)
     if type(value) is Undef and rt is not None:
-        rt.warn_undefined(value)
+        rt.warn_undefined(0)
         return 0.0
     raise TrgError("E413", op="+", kind=type_name(value))
 
