@@ -39,16 +39,16 @@ def measure_error(sums: Float64, counts: NDArray[np.int64]) -> dict[str, Any]:
     picture^2 + 0.01; `delete_one_mse`, the mse without each replicate. None below two replicates.
     """
     used = counts > 0
-    sums, counts = sums[used], counts[used].astype(np.float64)
-    replicates = len(counts)
+    sums, weights = sums[used], counts[used].astype(np.float64)
+    replicates = len(weights)
     if replicates < 2:
         return {"replicates": replicates, "mse": None, "relmse": None, "delete_one_mse": ()}
-    variance, mean = variance_of_mean(sums, counts)
-    delete_one = ()
+    variance, mean = variance_of_mean(sums, weights)
+    delete_one: tuple[float, ...] = ()
     if replicates > 2:
         rows = np.arange(replicates)
         delete_one = tuple(
-            float(variance_of_mean(sums[rows != r], counts[rows != r])[0].mean()) for r in rows
+            float(variance_of_mean(sums[rows != r], weights[rows != r])[0].mean()) for r in rows
         )
     relative = variance / (mean * mean + RELATIVE_FLOOR)
     return {

@@ -6,6 +6,8 @@ import sys
 from dataclasses import dataclass, field
 from typing import Any
 
+from numpy.typing import NDArray
+
 from .. import __version__
 from .features import find_features
 from .image_error import PictureError
@@ -156,7 +158,7 @@ def feature_section(scene: SceneArrays, settings: RenderSettings) -> dict[str, A
 
 def geometry_bytes(scene: SceneArrays) -> int:
     """Bytes of the scene's arrays: meshes, transforms, images."""
-    arrays = [
+    arrays: list[NDArray[Any]] = [
         array
         for mesh in scene.meshes
         for array in (mesh.vertices, mesh.triangles, mesh.normals, mesh.uvs, mesh.slots)
