@@ -72,14 +72,14 @@ CellLists list_cells(const Grid& grid, const std::vector<PrimRef>& refs) {
     CellLists lists;
     lists.begin.assign(cell_count + 1, 0);
     for (const PrimRef& ref : refs)
-        for_each_cell(grid, cells_of(grid, ref.box), [&](int64_t cell) { ++lists.begin[cell + 1]; });
+        for_each_cell(grid, cells_of(grid, box_of(ref)), [&](int64_t cell) { ++lists.begin[cell + 1]; });
     for (int64_t cell = 0; cell < cell_count; ++cell) lists.begin[cell + 1] += lists.begin[cell];
     if (lists.begin[cell_count] > kMostEntries) throw std::length_error("the grid grows too large");
 
     lists.items.resize(lists.begin[cell_count]);
     std::vector<int64_t> at(lists.begin.begin(), lists.begin.end() - 1);
     for (size_t k = 0; k < refs.size(); ++k)
-        for_each_cell(grid, cells_of(grid, refs[k].box),
+        for_each_cell(grid, cells_of(grid, box_of(refs[k])),
                       [&](int64_t cell) { lists.items[at[cell]++] = static_cast<int32_t>(k); });
     return lists;
 }

@@ -34,7 +34,7 @@ TriangleCorners corners_of(const Source& source, int64_t item) {
 PrimRef ref_of(const TriangleCorners& triangle, int64_t item) {
     Bounds box = empty_bounds();
     for (const Vec3& p : triangle.p) box = united(box, p);
-    return {box, static_cast<int32_t>(item), 0};
+    return make_ref(box, static_cast<int32_t>(item));
 }
 
 /// References to the sound triangles, in order.
@@ -138,7 +138,7 @@ void index_soup(Soup& soup, const Source& source, const SoupSettings& settings) 
     soup.accel = settings.accel;
     soup.triangles = static_cast<int64_t>(refs.size());
     soup.degenerate = source.count - soup.triangles;
-    for (const PrimRef& ref : refs) soup.bounds = united(soup.bounds, ref.box);
+    for (const PrimRef& ref : refs) soup.bounds = united(soup.bounds, box_of(ref));
     BlockItems runs;
     if (refs.empty() || settings.accel == AccelKind::none) {
         soup.accel = AccelKind::none;

@@ -8,12 +8,16 @@
 
 namespace trg {
 
-/// The box of one item of a tree, and which item it is.
-struct PrimRef {
-    Bounds box;
+/// The box of one item of a tree, and which item it is: two rows of four numbers.
+struct alignas(16) PrimRef {
+    Vec3 lo;
     int32_t item;
+    Vec3 hi;
     int32_t unused;
 };
+
+TRG_FN PrimRef make_ref(const Bounds& box, int32_t item) { return {box.lo, item, box.hi, 0}; }
+TRG_FN Bounds box_of(const PrimRef& ref) { return {ref.lo, ref.hi}; }
 
 /// A run of references with the box of them all and the box of their (doubled) centres.
 struct PrimRange {

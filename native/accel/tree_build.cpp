@@ -13,6 +13,7 @@ namespace {
 constexpr int kDeepLevel = 30;
 constexpr int64_t kSmallestTask = 4096;
 constexpr int64_t kTasksPerTree = 64;
+constexpr double kSplinterWeight = 0.3;
 
 /// A subtree that is built apart, and the child slot of the upper tree that waits for it.
 struct Task {
@@ -38,25 +39,36 @@ NodeRef add_leaf(Builder& builder, const PrimRange& range) {
     return kLeafBit | leaf;
 }
 
-/// Opens the child of largest surface again and again until there are eight; returns how many.
+/// The child to open next: the widest, where a small one whose leaves would not all find room in the
+/// free slots counts for less, because its parts become nodes with few children. -1: all are leaves.
+int choose_child(const PrimRange children[kWidth], int count, int block_width) {
+    const int64_t fits_one_node = int64_t{kWidth} * block_width * 7 / 8;
+    const int64_t fits_free_slots = int64_t{kWidth + 1 - count} * block_width;
+    int chosen = -1;
+    double chosen_area = -1.0;
+    for (int k = 0; k < count; ++k) {
+        const int64_t items = item_count(children[k]);
+        if (items <= block_width) continue;
+        const bool splinters = items > fits_free_slots && items <= fits_one_node;
+        const double area = half_area(children[k].box) * (splinters ? kSplinterWeight : 1.0);
+        if (area <= chosen_area) continue;
+        chosen = k;
+        chosen_area = area;
+    }
+    return chosen;
+}
+
+/// Opens children of `range` until there are eight or only leaves; returns how many there are.
 int open_children(Builder& builder, const PrimRange& range, int level, PrimRange children[kWidth]) {
     children[0] = range;
     int count = 1;
     while (count < kWidth) {
-        int widest = -1;
-        double area = -1.0;
-        for (int k = 0; k < count; ++k) {
-            if (item_count(children[k]) <= builder.settings.block_width) continue;
-            if (half_area(children[k].box) > area) {
-                area = half_area(children[k].box);
-                widest = k;
-            }
-        }
-        if (widest < 0) break;
+        const int opened = choose_child(children, count, builder.settings.block_width);
+        if (opened < 0) break;
         PrimRange halves[2];
-        if (level > kDeepLevel) split_by_count(builder.refs.data(), children[widest], halves);
-        else split_range(builder.refs.data(), children[widest], builder.settings, halves);
-        children[widest] = halves[0];
+        if (level > kDeepLevel) split_by_count(builder.refs.data(), children[opened], halves);
+        else split_range(builder.refs.data(), children[opened], builder.settings, halves);
+        children[opened] = halves[0];
         children[count++] = halves[1];
     }
     return count;

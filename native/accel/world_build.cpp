@@ -162,7 +162,7 @@ void build_top(Assembly& assembly) {
     }
     std::vector<PrimRef> refs;
     for (size_t k = 0; k < assembly.boxes.size(); ++k)
-        refs.push_back({assembly.boxes[k], static_cast<int32_t>(k), 0});
+        refs.push_back(make_ref(assembly.boxes[k], static_cast<int32_t>(k)));
     index.top = build_tree(refs, {1, assembly.settings.threads});
     for (const LeafRange& leaf : index.top.leaves)
         index.placements.push_back(assembly.placements[refs[leaf.begin].item]);
