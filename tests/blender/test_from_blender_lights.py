@@ -15,8 +15,10 @@ import pytest
 bpy = pytest.importorskip("bpy")
 addon_utils = pytest.importorskip("addon_utils")
 
+from trg_blender.engine import session  # noqa: E402
+from trg_blender.engine.devices import find_device  # noqa: E402
 from trg_blender.engine.from_blender import SceneReader  # noqa: E402
-from trg_blender.engine.scene_arrays import LIGHT_KINDS, Light  # noqa: E402
+from trg_blender.engine.scene_arrays import LIGHT_KINDS, Light, RenderSettings  # noqa: E402
 
 ALBEDO = 0.8
 SAMPLES = 1024
@@ -179,6 +181,18 @@ def test_light_row_predicts_what_cycles_renders(name, distance, tmp_path):
     expected = ALBEDO / math.pi * predicted_irradiance(light) * color
     assert expected.min() > 0
     np.testing.assert_allclose(cycles_radiance(scene, tmp_path), expected, rtol=0.01)
+
+
+@pytest.mark.skipif(not find_device("cpu").available, reason="trg_native is not built")
+@pytest.mark.parametrize("name", CASES)
+def test_the_native_renderer_agrees_with_cycles(name, tmp_path):
+    """The whole way: Blender's light, the row, the sampled light of trg_native."""
+    scene = build_plane_scene(CASES[name], 2.0)
+    depsgraph = bpy.context.evaluated_depsgraph_get()
+    arrays = SceneReader().read(depsgraph.scene_eval, depsgraph, (4, 4))
+    result = session.render(arrays, RenderSettings(4, 4, samples=4 * SAMPLES, max_bounces=0))
+    ours = result.pixels[..., :3].reshape(-1, 3).mean(axis=0)
+    np.testing.assert_allclose(ours, cycles_radiance(scene, tmp_path), rtol=0.01)
 
 
 def test_a_light_object_keeps_the_falloff_that_a_program_stored():
