@@ -9,7 +9,13 @@ from pathlib import Path
 import pytest
 
 from trg_blender.lang import (
-    DiskFiles, FrameEvent, HostOptions, Limits, ProgramError, Session, compile_source,
+    DiskFiles,
+    FrameEvent,
+    HostOptions,
+    Limits,
+    ProgramError,
+    Session,
+    compile_source,
 )  # fmt: skip
 
 ROOT = Path(__file__).resolve().parents[2]

@@ -1,3 +1,4 @@
+# ruff: noqa: E501 (programs on one line)
 """Decisions of the language, by topic: each row is a program and its output, or its error."""
 
 from __future__ import annotations

@@ -1,3 +1,4 @@
+# ruff: noqa: E501 (programs on one line)
 """Hostile programs: every one ends in a diagnostic, soon, and reaches nothing."""
 
 from __future__ import annotations
@@ -172,7 +173,9 @@ def test_the_allow_list_refuses(text) -> None:
 
 
 def test_nothing_of_python_shows_in_printed_values(run) -> None:
-    text = "print(print, scene(), sphere(vec3(0), 1), material::gold(), function() { }, object(), scene().Add);"
+    text = (
+        "print(print, scene(), sphere(vec3(0), 1), material::gold(), function() { }, object(), scene().Add);"
+    )
     (line,) = run(text).output
     assert "0x" not in line and "<" not in line
 
@@ -198,5 +201,5 @@ def test_a_full_python_stack_is_a_diagnostic() -> None:
 
 
 def test_a_limit_names_its_value(run) -> None:
-    (found,) = [d for d in run("for (;;) { }", limits=Limits(max_steps=5000)).diagnostics]
+    (found,) = run("for (;;) { }", limits=Limits(max_steps=5000)).diagnostics
     assert found.code == "E601" and "5000" in found.message

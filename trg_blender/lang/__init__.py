@@ -1,10 +1,10 @@
 """The TRG language: compile a program, run it, take its frames. Needs the standard library only.
 
-    program = compile_source(text, "scene.trg", DiskFiles(folder))    # raises ProgramError
-    session = Session(program, HostOptions())
-    while isinstance(event := session.next_frame(), FrameEvent):
-        use(event.scene)
-    session.output, session.diagnostics
+program = compile_source(text, "scene.trg", DiskFiles(folder))    # raises ProgramError
+session = Session(program, HostOptions())
+while isinstance(event := session.next_frame(), FrameEvent):
+    use(event.scene)
+session.output, session.diagnostics
 """
 
 from __future__ import annotations

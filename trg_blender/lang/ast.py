@@ -210,9 +210,7 @@ class Return:
 
 
 Expr = Number | String | Path | Unary | Binary | Logic | Assign | Step | Call | Field | Function
-Statement = (
-    ExprStatement | Block | If | While | For | Switch | Include | Break | Continue | Return
-)
+Statement = ExprStatement | Block | If | While | For | Switch | Include | Break | Continue | Return
 
 
 @dataclass(frozen=True, slots=True)

@@ -298,9 +298,7 @@ def _check(row: Builtin, index: int, parameter: HostParameter, value: object) ->
     if kind not in types and not (kind == "vec3" and "colour" in types):
         raise _mismatch(row, index, parameter, kind)
     if type(value) is float:
-        if not parameter.low <= value <= parameter.high or (
-            parameter.open_low and value == parameter.low
-        ):
+        if not parameter.low <= value <= parameter.high or (parameter.open_low and value == parameter.low):
             raise _out_of_range(row, index, parameter, value)
     elif type(value) is Vec3:
         _check_vector(row, index, parameter, value)
@@ -312,23 +310,32 @@ def _check(row: Builtin, index: int, parameter: HostParameter, value: object) ->
 def _check_vector(row: Builtin, index: int, parameter: HostParameter, value: Vec3) -> None:
     for component in value:
         if not -LARGEST <= component <= LARGEST:
-            raise _at(TrgError("E503", name=row.shown, index=index + 1), index)
+            raise _argument_error("E503", row, index, parameter)
         if component < 0.0 and "colour" in parameter.types:
-            raise _at(TrgError("E505", name=row.shown, index=index + 1), index)
+            raise _argument_error("E505", row, index, parameter)
 
 
-def _at(error: TrgError, index: int) -> TrgError:
+def _argument_error(
+    code: str, row: Builtin, index: int, parameter: HostParameter, **values: object
+) -> TrgError:
+    error = TrgError(
+        code,
+        name=row.shown,
+        index=index + 1,
+        parameter=parameter.name,
+        **values,  # type: ignore[arg-type]
+    )
     error.argument = index
     return error
 
 
 def _mismatch(row: Builtin, index: int, parameter: HostParameter, kind: str) -> TrgError:
-    values = {"name": row.shown, "index": index + 1, "parameter": parameter.name, "kind": kind}
     if kind == "undef":
-        return _at(TrgError("E507", **values), index)
+        return _argument_error("E507", row, index, parameter)
     if parameter.types == ("num",):
-        return _at(TrgError("E502", **values), index)
-    return _at(TrgError("E501", wanted=_wanted(parameter.types), **values), index)
+        return _argument_error("E502", row, index, parameter, kind=kind)
+    wanted = _wanted(parameter.types)
+    return _argument_error("E501", row, index, parameter, wanted=wanted, kind=kind)
 
 
 def _wanted(types: Iterable[str]) -> str:
@@ -341,11 +348,10 @@ def _article(word: str) -> str:
 
 
 def _out_of_range(row: Builtin, index: int, parameter: HostParameter, value: float) -> TrgError:
-    values: dict[str, object] = {"name": row.shown, "index": index + 1, "parameter": parameter.name}
     if not -LARGEST <= value <= LARGEST:
-        return _at(TrgError("E503", **values), index)
+        return _argument_error("E503", row, index, parameter)
     if parameter.high == LARGEST:
         wanted = f"{'>' if parameter.open_low else '>='} {parameter.low:g}"
     else:
         wanted = f"{parameter.low:g} .. {parameter.high:g}"
-    return _at(TrgError("E504", wanted=wanted, value=f"{value:g}", **values), index)
+    return _argument_error("E504", row, index, parameter, wanted=wanted, value=f"{value:g}")

@@ -57,7 +57,7 @@ class Cursor:
         if self.sees(text):
             return self.next()
         if text == ";" and self.sees(")"):
-            self.stop("E202", self.token.span, self._closes_too_early(), text=")")
+            raise self.error("E202", self.token.span, self._closes_too_early(), text=")")
         before = self.previous
         place = Span(before.file, before.end_line, before.end_col, before.end_line, before.end_col)
         fix = (place, text) if text == ";" else None
@@ -70,21 +70,21 @@ class Cursor:
         if token.kind == "name":
             return self.next()
         code = "E204" if token.kind == "keyword" else "E203"
-        self.stop(code, token.span, text=token.text)
+        raise self.error(code, token.span, text=token.text)
 
-    def stop(self, code: str, span: Span, hint: Notice | str | None = None, **values: object) -> None:
-        """Report an error and give the statement up: raises SyntaxStop."""
+    def error(self, code: str, span: Span, hint: Notice | str | None = None, **values: object) -> SyntaxStop:
+        """Report an error; the caller raises what this returns, to give the statement up."""
         if isinstance(hint, Notice):
             self.bag.add(Notice(code, span, values, hint.hint, hint.hint_values))
         else:
             self.bag.add(Notice(code, span, values, hint))
-        raise SyntaxStop
+        return SyntaxStop()
 
     def enter(self) -> None:
         """One nesting level more; raises SyntaxStop above the limit."""
         self.levels += 1
         if self.levels > MAX_LEVELS:
-            self.stop("E220", self.token.span, "split_nesting", limit=MAX_LEVELS)
+            raise self.error("E220", self.token.span, "split_nesting", limit=MAX_LEVELS)
 
     def leave(self) -> None:
         self.levels -= 1
@@ -93,7 +93,7 @@ class Cursor:
         """The depth of a node over children of these depths; raises SyntaxStop above the limit."""
         depth = 1 + max(depths)
         if depth > MAX_DEPTH:
-            self.stop("E220", self.token.span, "split_nesting", limit=MAX_DEPTH)
+            raise self.error("E220", self.token.span, "split_nesting", limit=MAX_DEPTH)
         return depth
 
     def _closes_too_early(self) -> Notice | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Literal
@@ -92,14 +92,12 @@ def build_diagnostic(notice: Notice, severity: Severity, language: str) -> Diagn
         hint = hint_text(notice.hint, language, notice.hint_values or notice.values)
     related = tuple((span, hint_text(key, language, notice.values)) for span, key in notice.related)
     text = message_text(notice.code, language, notice.values)
-    return Diagnostic(
-        notice.code, severity, text, notice.span, hint, related=related, fix=notice.fix
-    )
+    return Diagnostic(notice.code, severity, text, notice.span, hint, related=related, fix=notice.fix)
 
 
-def closest(name: str, candidates: object) -> str | None:
+def closest(name: str, candidates: Iterable[str]) -> str | None:
     """The candidate that `name` may be a typing error of, or None."""
-    near = [c for c in candidates if abs(len(c) - len(name)) <= 2][:1000]  # type: ignore[attr-defined]
+    near = [c for c in candidates if abs(len(c) - len(name)) <= 2][:1000]
     folded = {c.lower(): c for c in near}
     if name.lower() in folded:
         return folded[name.lower()]

@@ -14,9 +14,9 @@ from .emit_expr import ExpressionEmitter, ProgramParts, step_amount
 from .limits import MAX_CALL_DEPTH
 from .pytree import (
     OPERATORS,
+    assign,
     at,
     attribute,
-    assign,
     call,
     compare,
     constant,
@@ -119,9 +119,7 @@ class StatementEmitter:
             return [assign(store(emit.variable(target), target.span), value, span)]
         return self._assign_field(target, value, span)
 
-    def _augment(
-        self, target: ast.Path | ast.Field, op: str, value: py.expr, span: Span
-    ) -> py.stmt:
+    def _augment(self, target: ast.Path | ast.Field, op: str, value: py.expr, span: Span) -> py.stmt:
         return at(py.AugAssign(self._target(target), OPERATORS[op](), value), span)
 
     def _target(self, target: ast.Path | ast.Field) -> py.Name | py.Attribute:
@@ -149,9 +147,7 @@ class StatementEmitter:
     # Branches and loops.
 
     def _if(self, node: ast.If) -> list[py.stmt]:
-        branches = [
-            (self.expressions.condition(test), self.block((body,))) for test, body in node.branches
-        ]
+        branches = [(self.expressions.condition(test), self.block((body,))) for test, body in node.branches]
         orelse = [] if node.otherwise is None else self.block((node.otherwise,))
         for test, body in reversed(branches):
             orelse = [at(py.If(test, body, orelse), node.span)]
@@ -270,7 +266,7 @@ def _declare(names: list[str], span: Span) -> list[py.stmt]:
 
 def _define(name: str, parameters: list[str], required: int, body: list[py.stmt]) -> py.FunctionDef:
     span = Span("", 1, 1, 1, 1)
-    arguments = [at(py.arg(p), span) for p in ("d_", *parameters)]  # type: ignore[type-var]
+    arguments = [at(py.arg(p), span) for p in ("d_", *parameters)]
     defaults: list[py.expr] = [load("A_", span) for _ in parameters[required:]]
     spec = py.arguments([], arguments, None, [], [], None, defaults)
     return at(py.FunctionDef(name, spec, body, []), span)
@@ -336,9 +332,7 @@ class FunctionEmitter:
         return made
 
 
-def emit_file(
-    parts: ProgramParts, tree: ast.FileTree, index: int, includes: dict[Span, int]
-) -> py.Module:
+def emit_file(parts: ProgramParts, tree: ast.FileTree, index: int, includes: dict[Span, int]) -> py.Module:
     """The Python module of one file: its functions, and the generator `m_<index>` that runs it."""
     functions = [i for i in parts.resolution.functions.values() if i.file == tree.name]
     body: list[py.stmt] = [FunctionEmitter(parts, info).define() for info in functions]

@@ -22,7 +22,6 @@ from .pytree import (
     load,
     named,
     one_or_zero,
-    store,
 )
 from .resolve import FunctionInfo, Resolution
 from .runtime import Site
@@ -197,9 +196,7 @@ class ExpressionEmitter:
     def _is_builtin(self, path: ast.Path) -> bool:
         return self.parts.resolution.is_builtin(path, self.context)
 
-    def _change_field(
-        self, target: ast.Field, op: str, value: Callable[[], py.expr], span: Span
-    ) -> py.expr:
+    def _change_field(self, target: ast.Field, op: str, value: Callable[[], py.expr], span: Span) -> py.expr:
         held = self.temporary()
         holder = named(held, self.value(target.object), target.span)
         old = attribute(load(held, target.span), target.name, target.span, py.Load())

@@ -113,9 +113,7 @@ class DiskFiles:
                 return found
         return None
 
-    def _places(
-        self, parts: tuple[str, ...], from_file: str
-    ) -> list[tuple[Path, tuple[str, ...]]]:
+    def _places(self, parts: tuple[str, ...], from_file: str) -> list[tuple[Path, tuple[str, ...]]]:
         folder = tuple(from_file.replace("\\", "/").split("/")[:-1])
         places: list[tuple[Path, tuple[str, ...]]] = []
         bundled = bundled_library()
@@ -139,12 +137,11 @@ def find_inside(root: Path, parts: tuple[str, ...]) -> Path | None:
     here = root
     for part in parts:
         try:
-            step = here / part
-            if not step.exists():
-                step = _ignoring_case(here, part)  # type: ignore[assignment]
-                if step is None:
-                    return None
+            exact = here / part
+            step = exact if exact.exists() else _ignoring_case(here, part)
         except OSError:
+            return None
+        if step is None:
             return None
         here = step
     if not here.is_file():

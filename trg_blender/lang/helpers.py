@@ -34,8 +34,8 @@ class Helpers:
         made.update(t_num=float, t_str=Str, t_vec3=Vec3, t_object=Obj)
         made.update(
             u_=rt.undef, A_=_ABSENT, P_=PAUSE, G_=GeneratorType, Y_=type, K_=rt.ticks(), S_=iter(()),
-            B_=self.set_after, E_=self.set_field, D_=self.is_defined, F_=self.function, L_=rt.compare, M_=self.method,
-            N_=rt.logical_not, O_=rt.new_object, R_=self.missing, W_=self.check_type,
+            B_=self.set_after, E_=self.set_field, D_=self.is_defined, F_=self.function, L_=rt.compare,
+            M_=self.method, N_=rt.logical_not, O_=rt.new_object, R_=self.missing, W_=self.check_type,
             X_=self.too_deep, Z_=self.counted,
         )  # fmt: skip
         return made

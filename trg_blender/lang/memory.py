@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import os
-
-try:
-    import resource
-except ImportError:  # Windows
-    resource = None  # type: ignore[assignment]
+from importlib import import_module
+from types import ModuleType
 
 _STATM = "/proc/self/statm"
 _PAGE = os.sysconf("SC_PAGE_SIZE") if hasattr(os, "sysconf") else 4096
+
+
+def _resource() -> ModuleType | None:
+    """The module of the system's accounts; Windows has none."""
+    try:
+        return import_module("resource")
+    except ImportError:
+        return None
 
 
 def resident_bytes() -> int:
@@ -20,6 +25,5 @@ def resident_bytes() -> int:
             return int(statm.read().split()[1]) * _PAGE
     except OSError:
         pass
-    if resource is None:
-        return 0
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * 1024
+    resource = _resource()
+    return 0 if resource is None else int(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss) * 1024

@@ -28,25 +28,46 @@ MESSAGES: dict[str, tuple[str, str]] = {
     "E204": ("'{text}' is a keyword, not a name", "'{text}' - служебное слово, а не имя"),
     "E205": ("expected an expression", "здесь нужно выражение"),
     "E206": ("only a variable or a field can be assigned to", "присвоить можно только переменной или полю"),
-    "E207": ("'{text}' is not an operator that can be defined", "'{text}' - не операция, которую можно определить"),
+    "E207": (
+        "'{text}' is not an operator that can be defined",
+        "'{text}' - не операция, которую можно определить",
+    ),
     "E208": ("two parameters are called '{name}'", "два параметра с именем '{name}'"),
     "E209": ("expected the name of a type in quotes", "здесь нужно имя типа в кавычках"),
     "E210": ("'}}' has no matching '{{'", "у '}}' нет парной '{{'"),
     "E211": ("the block is not closed", "блок не закрыт"),
     "E212": ("a switch has only one 'default'", "в switch только один 'default'"),
     "E213": ("expected 'case', 'default' or '}}'", "здесь нужно 'case', 'default' или '}}'"),
-    "E214": ("'include' stands at the top level of a program only", "'include' пишется только на верхнем уровне программы"),
+    "E214": (
+        "'include' stands at the top level of a program only",
+        "'include' пишется только на верхнем уровне программы",
+    ),
     "E215": ("'include' takes a string in quotes", "'include' берёт строку в кавычках"),
     "E216": ("'break' outside of a loop or switch", "'break' вне цикла или switch"),
     "E217": ("'continue' outside of a loop", "'continue' вне цикла"),
     "E218": ("'return' outside of a function", "'return' вне функции"),
-    "E220": ("the program is nested too deeply here (limit {limit})", "слишком глубокая вложенность (предел {limit})"),
-    "E221": ("the expression is too long (limit {limit} operators)", "выражение слишком длинное (предел {limit} операций)"),
-    "E222": ("the chain is too long (limit {limit} links)", "цепочка слишком длинная (предел {limit} звеньев)"),
+    "E220": (
+        "the program is nested too deeply here (limit {limit})",
+        "слишком глубокая вложенность (предел {limit})",
+    ),
+    "E221": (
+        "the expression is too long (limit {limit} operators)",
+        "выражение слишком длинное (предел {limit} операций)",
+    ),
+    "E222": (
+        "the chain is too long (limit {limit} links)",
+        "цепочка слишком длинная (предел {limit} звеньев)",
+    ),
     "E223": ("too many arguments (limit {limit})", "слишком много аргументов (предел {limit})"),
-    "E224": ("too many 'else if' in one chain (limit {limit})", "слишком много 'else if' подряд (предел {limit})"),
+    "E224": (
+        "too many 'else if' in one chain (limit {limit})",
+        "слишком много 'else if' подряд (предел {limit})",
+    ),
     "E225": ("loops are nested too deeply (limit {limit})", "циклы вложены слишком глубоко (предел {limit})"),
-    "E226": ("too many cases in one switch (limit {limit})", "слишком много case в одном switch (предел {limit})"),
+    "E226": (
+        "too many cases in one switch (limit {limit})",
+        "слишком много case в одном switch (предел {limit})",
+    ),
     "E301": ("'{name}' is not a variable of this function", "'{name}' - не переменная этой функции"),
     "E302": ("'{name}' is not defined", "имя '{name}' не определено"),
     "E303": ("'{name}' is not defined in this function", "имя '{name}' не определено в этой функции"),
@@ -55,24 +76,42 @@ MESSAGES: dict[str, tuple[str, str]] = {
     "E311": ("names in '{name}::' are built in", "имена в '{name}::' встроенные"),
     "E320": ("'{name}' includes itself", "файл '{name}' включает сам себя"),
     "E321": ("too many included files (limit {limit})", "слишком много включённых файлов (предел {limit})"),
-    "E322": ("includes are nested too deeply (limit {limit})", "слишком глубокие включения файлов (предел {limit})"),
+    "E322": (
+        "includes are nested too deeply (limit {limit})",
+        "слишком глубокие включения файлов (предел {limit})",
+    ),
     "E401": ("division by zero", "деление на ноль"),
     "E410": ("cannot compute {left} {op} {right}", "нельзя вычислить {left} {op} {right}"),
-    "E411": ("a variable without a value cannot be joined to a string", "переменную без значения нельзя присоединить к строке"),
+    "E411": (
+        "a variable without a value cannot be joined to a string",
+        "переменную без значения нельзя присоединить к строке",
+    ),
     "E412": ("cannot compare {left} {op} {right}", "нельзя сравнить {left} {op} {right}"),
     "E413": ("cannot compute {op} of {kind}", "нельзя применить {op} к {kind}"),
     "E415": ("Render() cannot be called inside an operator", "Render() нельзя вызвать внутри операции"),
     "E416": ("the operator field does not hold a function", "поле операции - не функция"),
     "E420": ("{article} {kind} has no fields ('{name}')", "у значения {kind} нет полей ('{name}')"),
     "E421": ("{kind} has no field '{name}'", "у {kind} нет поля '{name}'"),
-    "E422": ("'{name}' has no value yet, so it has no fields", "у '{name}' ещё нет значения, поэтому нет и полей"),
+    "E422": (
+        "'{name}' has no value yet, so it has no fields",
+        "у '{name}' ещё нет значения, поэтому нет и полей",
+    ),
     "E423": ("the field '{name}' of a vec3 cannot be changed", "поле '{name}' у vec3 изменить нельзя"),
     "E424": ("the field '{name}' of {kind} cannot be set", "полю '{name}' у {kind} присвоить нельзя"),
     "E430": ("{article} {kind} cannot be called", "{kind} нельзя вызвать"),
-    "E431": ("'{name}' has no value yet, so it cannot be called", "у '{name}' ещё нет значения, вызвать нельзя"),
+    "E431": (
+        "'{name}' has no value yet, so it cannot be called",
+        "у '{name}' ещё нет значения, вызвать нельзя",
+    ),
     "E432": ("'{name}' needs the argument '{parameter}'", "'{name}' нужен аргумент '{parameter}'"),
-    "E433": ("'{name}' takes {wanted} arguments, {given} given", "'{name}' берёт аргументов: {wanted}, дано {given}"),
-    "E434": ("parameter '{name}' must be {wanted}, not {kind}", "параметр '{name}' должен быть {wanted}, а не {kind}"),
+    "E433": (
+        "'{name}' takes {wanted} arguments, {given} given",
+        "'{name}' берёт аргументов: {wanted}, дано {given}",
+    ),
+    "E434": (
+        "parameter '{name}' must be {wanted}, not {kind}",
+        "параметр '{name}' должен быть {wanted}, а не {kind}",
+    ),
     "E501": (
         "{name} expects {wanted} as argument {index} ('{parameter}'), not {kind}",
         "{name}: аргумент {index} ('{parameter}') должен быть {wanted}, а не {kind}",
@@ -86,8 +125,14 @@ MESSAGES: dict[str, tuple[str, str]] = {
         "{name}: argument {index} ('{parameter}') must be {wanted}, not {value}",
         "{name}: аргумент {index} ('{parameter}') должен быть {wanted}, а не {value}",
     ),
-    "E505": ("{name}: argument {index} is a colour and cannot be negative", "{name}: аргумент {index} - цвет и не может быть отрицательным"),
-    "E506": ("{name} takes {wanted} arguments, {given} given", "{name} берёт аргументов: {wanted}, дано {given}"),
+    "E505": (
+        "{name}: argument {index} is a colour and cannot be negative",
+        "{name}: аргумент {index} - цвет и не может быть отрицательным",
+    ),
+    "E506": (
+        "{name} takes {wanted} arguments, {given} given",
+        "{name} берёт аргументов: {wanted}, дано {given}",
+    ),
     "E507": (
         "{name}: argument {index} ('{parameter}') has no value yet",
         "{name}: у аргумента {index} ('{parameter}') ещё нет значения",
@@ -96,31 +141,70 @@ MESSAGES: dict[str, tuple[str, str]] = {
     "E510": ("'{name}' must stay inside the project", "'{name}' должен лежать внутри проекта"),
     "E511": ("cannot find '{name}'", "не найден файл '{name}'"),
     "E512": ("'{name}' cannot be read as text", "'{name}' нельзя прочитать как текст"),
-    "E601": ("the instruction budget of {limit} steps for a frame is used up", "исчерпан предел шагов на кадр (instruction budget): {limit}"),
-    "E602": ("the time limit of {limit:g} seconds for a frame is used up", "исчерпано время на кадр: {limit:g} с"),
-    "E604": ("the program uses too much memory (limit {limit})", "программе нужно слишком много памяти (предел {limit})"),
+    "E601": (
+        "the instruction budget of {limit} steps for a frame is used up",
+        "исчерпан предел шагов на кадр (instruction budget): {limit}",
+    ),
+    "E602": (
+        "the time limit of {limit:g} seconds for a frame is used up",
+        "исчерпано время на кадр: {limit:g} с",
+    ),
+    "E604": (
+        "the program uses too much memory (limit {limit})",
+        "программе нужно слишком много памяти (предел {limit})",
+    ),
     "E605": ("the string is longer than {limit} characters", "строка длиннее {limit} символов"),
-    "E606": ("the strings of the program use more than {limit} MB", "строки программы занимают больше {limit} МБ"),
-    "E607": ("calls of '{name}' are nested too deeply (limit {limit})", "вызовы '{name}' вложены слишком глубоко (предел {limit})"),
-    "E608": ("operators are nested too deeply (limit {limit})", "операции вложены слишком глубоко (предел {limit})"),
+    "E606": (
+        "the strings of the program use more than {limit} MB",
+        "строки программы занимают больше {limit} МБ",
+    ),
+    "E607": (
+        "calls of '{name}' are nested too deeply (limit {limit})",
+        "вызовы '{name}' вложены слишком глубоко (предел {limit})",
+    ),
+    "E608": (
+        "operators are nested too deeply (limit {limit})",
+        "операции вложены слишком глубоко (предел {limit})",
+    ),
     "E609": ("cancelled", "отменено"),
-    "E610": ("too many shapes and lights (limit {limit})", "слишком много тел и источников света (предел {limit})"),
-    "E611": ("the computer has no memory left for the program", "у компьютера не осталось памяти для программы"),
-    "E900": ("internal error in TRG: {kind}; please report it", "внутренняя ошибка TRG: {kind}; сообщите о ней"),
+    "E610": (
+        "too many shapes and lights (limit {limit})",
+        "слишком много тел и источников света (предел {limit})",
+    ),
+    "E611": (
+        "the computer has no memory left for the program",
+        "у компьютера не осталось памяти для программы",
+    ),
+    "E900": (
+        "internal error in TRG: {kind}; please report it",
+        "внутренняя ошибка TRG: {kind}; сообщите о ней",
+    ),
     "W701": ("this variable has no value yet; 0 is used", "у переменной ещё нет значения; взят 0"),
     "W702": ("cannot find '{name}'; a placeholder is used", "не найден файл '{name}'; взята замена"),
-    "W703": ("unknown {what} '{name}'; the host's own is used", "неизвестно: {what} '{name}'; взято то, что задано в программе-хозяине"),
-    "L801": ("this assigns; a condition usually compares", "здесь присваивание, а в условии обычно сравнение"),
+    "W703": (
+        "unknown {what} '{name}'; the host's own is used",
+        "неизвестно: {what} '{name}'; взято то, что задано в программе-хозяине",
+    ),
+    "L801": (
+        "this assigns; a condition usually compares",
+        "здесь присваивание, а в условии обычно сравнение",
+    ),
     "L802": ("'{name}' hides the built-in of that name", "'{name}' закрывает встроенное имя"),
     "L803": ("this case runs on into the next one", "этот case переходит в следующий"),
-}  # fmt: skip
+}
 
 HINTS: dict[str, tuple[str, str]] = {
     "assignable": ("write name = ... or object.field = ...", "пишите имя = ... или объект.поле = ..."),
     "choose_other_name": ("choose another name", "выберите другое имя"),
-    "choose_other_space": ("choose a space of your own, for example my::", "выберите своё пространство имён, например my::"),
+    "choose_other_space": (
+        "choose a space of your own, for example my::",
+        "выберите своё пространство имён, например my::",
+    ),
     "close_string": ('write " before the end of the line', 'поставьте " до конца строки'),
-    "closes_too_early": ("perhaps the ')' at {place} closes too early", "возможно, ')' в {place} закрывает слишком рано"),
+    "closes_too_early": (
+        "perhaps the ')' at {place} closes too early",
+        "возможно, ')' в {place} закрывает слишком рано",
+    ),
     "did_you_mean": ("did you mean '{name}'?", "может быть, '{name}'?"),
     "did_you_mean_field": ("did you mean '{guess}'?", "может быть, '{guess}'?"),
     "double_backslash": ("write \\\\ or use /", "пишите \\\\ или /"),
@@ -128,14 +212,23 @@ HINTS: dict[str, tuple[str, str]] = {
     "global_here": ("the global is assigned here", "глобальной переменной присвоено здесь"),
     "outer_variable": ("a variable of the function around it", "переменная внешней функции"),
     "argument_here": ("the argument", "аргумент"),
-    "no_conditional": ("there is no '?:'; write if (...) ... else ...", "операции '?:' нет; пишите if (...) ... else ..."),
+    "no_conditional": (
+        "there is no '?:'; write if (...) ... else ...",
+        "операции '?:' нет; пишите if (...) ... else ...",
+    ),
     "new_vector": ("make a new one: vec3(x, y, z)", "создайте новый: vec3(x, y, z)"),
     "not_a_closure": (
         "functions do not see the variables of the function around them; pass it as an argument",
         "функция не видит переменных внешней функции; передайте значение аргументом",
     ),
-    "overloads": ("one of + - * / % == != < > <= >= ! follows 'operator'", "после 'operator' одна из + - * / % == != < > <= >= !"),
-    "raise_limit": ("call Scene.Render() in the loop, or raise the limit (--max-steps, preferences)", "вызовите Scene.Render() в цикле или увеличьте предел (--max-steps, настройки)"),
+    "overloads": (
+        "one of + - * / % == != < > <= >= ! follows 'operator'",
+        "после 'operator' одна из + - * / % == != < > <= >= !",
+    ),
+    "raise_limit": (
+        "call Scene.Render() in the loop, or raise the limit (--max-steps, preferences)",
+        "вызовите Scene.Render() в цикле или увеличьте предел (--max-steps, настройки)",
+    ),
     "reserved": ("reserved for later versions", "оставлено для следующих версий"),
     "reserved_word": ("this keyword cannot stand here", "это служебное слово здесь не может стоять"),
     "split_expression": ("split it into several statements", "разбейте на несколько операторов"),
@@ -152,8 +245,11 @@ HINTS: dict[str, tuple[str, str]] = {
     "write_hash": ("write #{name} for the global variable", "для глобальной переменной пишите #{name}"),
     "write_or": ("write ||", "пишите ||"),
     "write_pow": ("write mth::pow(x, y)", "пишите mth::pow(x, y)"),
-    "write_vec3": ("write vec3(1) for a vector of equal components", "пишите vec3(1) - вектор из равных чисел"),
-}  # fmt: skip
+    "write_vec3": (
+        "write vec3(1) for a vector of equal components",
+        "пишите vec3(1) - вектор из равных чисел",
+    ),
+}
 
 LANGUAGES = ("en", "ru")
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from . import ast
 from .cursor import Cursor, SyntaxStop
 from .diagnostics import DiagnosticBag
@@ -48,12 +50,9 @@ class Parser:
             self.functions -= 1
             self.cursor.statement_start = start
 
-    def bag_error(self, code: str, span: Span, **values: object) -> None:
+    def bag_error(self, code: str, span: Span, text: str = "") -> None:
         """Report without giving the statement up."""
-        try:
-            self.cursor.stop(code, span, **values)
-        except SyntaxStop:
-            return
+        self.cursor.error(code, span, text=text)
 
     def _recovering(self, statements: list[ast.Statement]) -> None:
         """Parse one statement into `statements`; after an error skip to the next."""
@@ -77,6 +76,7 @@ class Parser:
         cursor.statement_start = cursor.at
         cursor.enter()
         token = cursor.token
+        made: ast.Statement
         if token.kind == "keyword":
             parse = _KEYWORD_STATEMENTS.get(token.text)
             made = parse(self) if parse else self._expression_statement()
@@ -109,7 +109,7 @@ class Parser:
 
     def _unclosed(self, span: Span) -> None:
         if not any(item.code == "E211" for item in self.bag.items) and not self.bag.full:
-            self.cursor.stop("E211", span)
+            raise self.cursor.error("E211", span)
         raise SyntaxStop
 
     def _parenthesised(self) -> ast.Expr:
@@ -128,7 +128,7 @@ class Parser:
                 otherwise = self.statement()
                 break
             if len(branches) == MAX_BRANCHES:
-                cursor.stop("E224", cursor.token.span, limit=MAX_BRANCHES)
+                raise cursor.error("E224", cursor.token.span, limit=MAX_BRANCHES)
             cursor.next()
             branches.append((self._parenthesised(), self.statement()))
         return ast.If(start, tuple(branches), otherwise)
@@ -136,7 +136,7 @@ class Parser:
     def _inside(self, kind: str, span: Span) -> None:
         self.around.append(kind)
         if len(self.around) > MAX_LOOPS:
-            self.cursor.stop("E225", span, "split_loops", limit=MAX_LOOPS)
+            raise self.cursor.error("E225", span, "split_loops", limit=MAX_LOOPS)
 
     def _while(self) -> ast.While:
         start = self.cursor.next().span
@@ -180,15 +180,15 @@ class Parser:
         cursor = self.cursor
         start = cursor.token.span
         if len(before) == MAX_CASES:
-            cursor.stop("E226", start, limit=MAX_CASES)
+            raise cursor.error("E226", start, limit=MAX_CASES)
         value: ast.Expr | None = None
         if cursor.accept("case"):
             value = self.expressions.parse()
         elif cursor.accept("default"):
             if any(case.value is None for case in before):
-                cursor.stop("E212", start)
+                raise cursor.error("E212", start)
         else:
-            cursor.stop("E213", start)
+            raise cursor.error("E213", start)
         cursor.expect(":")
         body: list[ast.Statement] = []
         while not (cursor.sees("case") or cursor.sees("default") or cursor.sees("}")):
@@ -201,11 +201,11 @@ class Parser:
         cursor = self.cursor
         start = cursor.next().span
         if self.functions or self.around or cursor.levels > 1:
-            cursor.stop("E214", start)
+            raise cursor.error("E214", start)
         cursor.expect("(")
         token = cursor.next()
         if token.kind != "string":
-            cursor.stop("E215", token.span)
+            raise cursor.error("E215", token.span)
         cursor.expect(")")
         end = cursor.expect(";").span
         return ast.Include(start.to(end), str(token.value), token.span)
@@ -233,7 +233,7 @@ class Parser:
         return ast.Return(span if value is None else span.to(value.span), value)
 
 
-_KEYWORD_STATEMENTS = {
+_KEYWORD_STATEMENTS: dict[str, Callable[[Parser], ast.Statement]] = {
     "if": Parser._if,
     "while": Parser._while,
     "for": Parser._for,

@@ -56,8 +56,7 @@ class ExpressionParser:
     def _target(self, node: ast.Expr) -> ast.Path | ast.Field:
         if isinstance(node, ast.Path | ast.Field):
             return node
-        self.cursor.stop("E206", node.span, "assignable")
-        raise AssertionError
+        raise self.cursor.error("E206", node.span, "assignable")
 
     def _binary(self, lowest: int) -> ast.Expr:
         cursor = self.cursor
@@ -70,7 +69,7 @@ class ExpressionParser:
                 break
             chain += 1
             if chain > MAX_CHAIN:
-                cursor.stop("E221", cursor.token.span, "split_expression", limit=MAX_CHAIN)
+                raise cursor.error("E221", cursor.token.span, "split_expression", limit=MAX_CHAIN)
             cursor.next()
             right = self._binary(level + 1)
             deepest = max(deepest, right.depth)
@@ -112,7 +111,7 @@ class ExpressionParser:
                 break
             links += 1
             if links > MAX_LINKS:
-                cursor.stop("E222", cursor.token.span, "split_expression", limit=MAX_LINKS)
+                raise cursor.error("E222", cursor.token.span, "split_expression", limit=MAX_LINKS)
         return node
 
     def _call(self, callee: ast.Expr) -> ast.Call:
@@ -123,7 +122,7 @@ class ExpressionParser:
             if arguments:
                 cursor.expect(",") if cursor.sees(",") else cursor.expect(")")
             if len(arguments) == MAX_ARGUMENTS:
-                cursor.stop("E223", cursor.token.span, limit=MAX_ARGUMENTS)
+                raise cursor.error("E223", cursor.token.span, limit=MAX_ARGUMENTS)
             arguments.append(self.parse())
         end = cursor.next()
         depth = cursor.depth_above(callee.depth, *(a.depth for a in arguments))
@@ -146,12 +145,10 @@ class ExpressionParser:
         if token.kind == "op" and token.text in _SPLIT:
             s = token.span
             middle = s.col + 1
-            cursor.tokens[cursor.at] = Token(
-                "op", "=", "", Span(s.file, s.line, middle, s.line, s.end_col)
-            )
+            cursor.tokens[cursor.at] = Token("op", "=", "", Span(s.file, s.line, middle, s.line, s.end_col))
             return "operator" + _SPLIT[token.text], Span(s.file, s.line, s.col, s.line, middle)
         if token.kind != "op" or token.text not in OVERLOADS:
-            cursor.stop("E207", token.span, "overloads", text=token.text)
+            raise cursor.error("E207", token.span, "overloads", text=token.text)
         cursor.next()
         return "operator" + token.text, token.span
 
@@ -174,9 +171,8 @@ class ExpressionParser:
         if cursor.sees("function"):
             return self._function()
         if cursor.sees(")") and cursor.at > cursor.statement_start:
-            cursor.stop("E205", token.span, text=token.text)
-        cursor.stop("E205", token.span, "reserved_word" if token.kind == "keyword" else None)
-        raise AssertionError
+            raise cursor.error("E205", token.span, text=token.text)
+        raise cursor.error("E205", token.span, "reserved_word" if token.kind == "keyword" else None)
 
     def _path(self) -> ast.Path:
         cursor = self.cursor
@@ -186,7 +182,7 @@ class ExpressionParser:
         while cursor.accept("::"):
             parts.append(cursor.expect_name().text)
             if len(parts) > 8:
-                cursor.stop("E222", cursor.previous, limit=8)
+                raise cursor.error("E222", cursor.previous, limit=8)
         return ast.Path(start.to(cursor.previous), "::".join(parts), hashed)
 
     def _function(self) -> ast.Function:
@@ -198,7 +194,7 @@ class ExpressionParser:
             if parameters:
                 cursor.expect(",") if cursor.sees(",") else cursor.expect(")")
             if len(parameters) == MAX_ARGUMENTS:
-                cursor.stop("E223", cursor.token.span, limit=MAX_ARGUMENTS)
+                raise cursor.error("E223", cursor.token.span, limit=MAX_ARGUMENTS)
             parameters.append(self._parameter(parameters))
         cursor.next()
         body = self.statements.parse_function_body()
@@ -208,12 +204,12 @@ class ExpressionParser:
         cursor = self.cursor
         name = cursor.expect_name()
         if any(p.name == name.text for p in before):
-            cursor.stop("E208", name.span, name=name.text)
+            raise cursor.error("E208", name.span, name=name.text)
         default = self.parse() if cursor.accept("=") else None
         type_name, type_span = None, None
         if cursor.accept("~"):
             token = cursor.next()
             if token.kind != "string":
-                cursor.stop("E209", token.span, "type_string")
+                raise cursor.error("E209", token.span, "type_string")
             type_name, type_span = str(token.value), token.span
         return ast.Parameter(name.span, name.text, default, type_name, type_span)

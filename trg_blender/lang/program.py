@@ -160,9 +160,7 @@ def _stop_at_errors(bag: DiagnosticBag) -> None:
         return
     scanned = {(d.span.file, d.span.line) for d in bag.items if d.code.startswith("E1")}
     kept = [
-        d
-        for d in bag.in_order()
-        if not (d.code.startswith("E2") and (d.span.file, d.span.line) in scanned)
+        d for d in bag.in_order() if not (d.code.startswith("E2") and (d.span.file, d.span.line) in scanned)
     ]
     raise ProgramError(tuple(kept))
 

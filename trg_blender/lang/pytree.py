@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from .source import Span
 
-Node = TypeVar("Node", py.expr, py.stmt)
+Node = TypeVar("Node", bound=py.expr | py.stmt | py.arg)
 
 OPERATORS: dict[str, type[py.operator]] = {
     "+": py.Add,

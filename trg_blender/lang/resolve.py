@@ -88,9 +88,7 @@ class _Resolver:
 
     # Collecting: functions, and what is assigned where.
 
-    def _collect(
-        self, expressions: list[ast.Expr], file: str, context: FunctionInfo | None
-    ) -> None:
+    def _collect(self, expressions: list[ast.Expr], file: str, context: FunctionInfo | None) -> None:
         for node in expressions:
             if isinstance(node, ast.Function):
                 self._collect_function(node, file, context)
@@ -99,9 +97,7 @@ class _Resolver:
                 if isinstance(node.target, ast.Field):
                     self._note_overload(node.target)
 
-    def _collect_function(
-        self, node: ast.Function, file: str, outer: FunctionInfo | None
-    ) -> None:
+    def _collect_function(self, node: ast.Function, file: str, outer: FunctionInfo | None) -> None:
         info = FunctionInfo(node, file, len(self.result.functions), outer)
         self.result.functions[id(node)] = info
         info.locals.update((p.name, p.span) for p in node.parameters)
@@ -112,18 +108,14 @@ class _Resolver:
     def _look_at_statements(self, statements: tuple[ast.Statement, ...]) -> None:
         _LintWalk(self.bag).run(statements)
         self.result.statement_values.update(
-            id(node.value)
-            for node in _walk_statements(statements)
-            if isinstance(node, ast.ExprStatement)
+            id(node.value) for node in _walk_statements(statements) if isinstance(node, ast.ExprStatement)
         )
 
     def _note_overload(self, target: ast.Field) -> None:
         if target.name.startswith("operator"):
             self.result.overloads.add(target.name.removeprefix("operator"))
 
-    def _collect_target(
-        self, target: ast.Expr, file: str, context: FunctionInfo | None
-    ) -> None:
+    def _collect_target(self, target: ast.Expr, file: str, context: FunctionInfo | None) -> None:
         """Note the variable that an assignment to `target` creates, fields' objects included."""
         made_by_field = False
         if isinstance(target, ast.Field) and isinstance(target.object, ast.Path):
@@ -185,9 +177,7 @@ class _Resolver:
             return
         self._not_defined(path, [*context.locals, *self.result.builtins])
 
-    def _add(
-        self, code: str, path: ast.Path, hint: str, related: tuple[tuple[Span, str], ...]
-    ) -> None:
+    def _add(self, code: str, path: ast.Path, hint: str, related: tuple[tuple[Span, str], ...]) -> None:
         self.bag.add(Notice(code, path.span, {"name": path.name}, hint, None, related))
 
     def _not_defined(self, path: ast.Path, candidates: list[str]) -> None:
@@ -201,9 +191,7 @@ class _Resolver:
         written = ("#" if path.hashed else "") + guess
         hint_values = {"name": guess}
         fix = (path.span, written)
-        self.bag.add(
-            Notice("E302", path.span, values, "did_you_mean", hint_values, (), fix)
-        )
+        self.bag.add(Notice("E302", path.span, values, "did_you_mean", hint_values, (), fix))
 
     def _check_parameters(self, info: FunctionInfo) -> None:
         for parameter in info.node.parameters:
@@ -255,8 +243,6 @@ def _walk_statements(statements: tuple[ast.Statement, ...]) -> Iterator[ast.Stat
         todo.extend(reversed(ast.parts_of(node)[1]))
 
 
-def resolve_program(
-    files: list[ast.FileTree], builtins: frozenset[str], bag: DiagnosticBag
-) -> Resolution:
+def resolve_program(files: list[ast.FileTree], builtins: frozenset[str], bag: DiagnosticBag) -> Resolution:
     """The meaning of every name of the program made of `files`. Errors and lints go to `bag`."""
     return _Resolver(builtins, bag).run(files)

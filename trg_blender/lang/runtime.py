@@ -161,9 +161,7 @@ class Runtime:
         positions = list(code.co_positions())
         line, end_line, col, end_col = positions[max(0, last_instruction) // 2]
         first = line or 1
-        span = Span(
-            code.co_filename, first, (col or 0) + 1, end_line or first, (end_col or 0) + 1
-        )
+        span = Span(code.co_filename, first, (col or 0) + 1, end_line or first, (end_col or 0) + 1)
         return self.program.sites.get(span) or Site(span)
 
     def make_key(self, kind: str) -> tuple[str, Span]:

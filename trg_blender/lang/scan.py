@@ -10,9 +10,7 @@ from typing import NamedTuple
 from .diagnostics import DiagnosticBag, Notice
 from .source import SourceFile, Span
 
-KEYWORDS = frozenset(
-    "if else while for switch case default break continue return function operator".split()
-)
+KEYWORDS = frozenset("if else while for switch case default break continue return function operator".split())
 RESERVED_WORDS = {"in": "reserved", "true": "write_1", "false": "write_0"}
 MAX_NUMBER_LENGTH = 64
 MAX_STRING_LENGTH = 65_536
@@ -155,9 +153,7 @@ class _Scanner:
         first = start - self.line_start + 1
         return Span(self.source.name, self.line, first, self.line, first + end - start)
 
-    def _error(
-        self, code: str, start: int, end: int, hint: str | None = None, **values: object
-    ) -> None:
+    def _error(self, code: str, start: int, end: int, hint: str | None = None, **values: object) -> None:
         self.bag.add(Notice(code, self._span(start, end), values, hint))
 
 

@@ -18,14 +18,14 @@ if TYPE_CHECKING:
     from .source import Span
 
 FIELD = "T_"
-ARITHMETIC: Mapping[str, Callable[[object, object], object]] = {
+ARITHMETIC: Mapping[str, Callable[..., object]] = {
     "+": operator.add,
     "-": operator.sub,
     "*": operator.mul,
     "/": operator.truediv,
     "%": operator.mod,
 }
-COMPARISON: Mapping[str, Callable[[object, object], object]] = {
+COMPARISON: Mapping[str, Callable[..., object]] = {
     "<": operator.lt,
     ">": operator.gt,
     "<=": operator.le,

@@ -84,8 +84,8 @@ class YieldAnalysis:
                 if isinstance(node, ast.Function):
                     self.escaped = functions[id(node)].yields
                 elif isinstance(node, ast.Path | ast.Field) and node.name in self.names:
-                    is_path = isinstance(node, ast.Path)
-                    self.escaped = not (is_path and self.resolution.is_builtin(node, context))
+                    builtin = isinstance(node, ast.Path) and self.resolution.is_builtin(node, context)
+                    self.escaped = not builtin
 
     @staticmethod
     def _is_operator(target: ast.Path | ast.Field) -> bool:

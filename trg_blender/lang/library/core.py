@@ -63,5 +63,3 @@ def _copy(rt: Runtime, value: object) -> object:
 @HOST.function("len", "text: str", "The number of characters of a string.", "num")
 def _len(rt: Runtime, text: str) -> object:
     return float(len(text))
-
-

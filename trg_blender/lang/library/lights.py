@@ -28,9 +28,7 @@ def _direction(kind: str, v: Vec3) -> Triple:
 def _dir_light(rt: Runtime, towards: Vec3, colour: Vec3) -> object:
     direction = _direction("dir", towards)
     key, span = _key(rt, "dir")
-    return Light(
-        rt, LightRecord(key, 1, "dir", triple(colour), direction=direction, origin=span)
-    )
+    return Light(rt, LightRecord(key, 1, "dir", triple(colour), direction=direction, origin=span))
 
 
 @HOST.function(

@@ -124,18 +124,14 @@ def _reflect(rt: Runtime, mtl: Material, k: float) -> object:
     return mtl.edit(reflect=k, metallic=max(k, mtl.draft.metallic), roughness=0.0)
 
 
-@HOST.method(
-    Material, "Refract", "k: num 0..1, index: num 1..4 = 1.5", "Make it clear to the share k."
-)
+@HOST.method(Material, "Refract", "k: num 0..1, index: num 1..4 = 1.5", "Make it clear to the share k.")
 def _refract(rt: Runtime, mtl: Material, k: float, index: float) -> object:
     if k == 0.0:
         return mtl.edit(refract=0.0, transmission=0.0, ior=index)
     return mtl.edit(refract=k, transmission=k, ior=index, roughness=0.0)
 
 
-@HOST.method(
-    Material, "Emission", "colour: colour, strength: num >= 0 = 1", "Let it shine by itself."
-)
+@HOST.method(Material, "Emission", "colour: colour, strength: num >= 0 = 1", "Let it shine by itself.")
 def _emit(rt: Runtime, mtl: Material, colour: Vec3, strength: float) -> object:
     return mtl.edit(emission_color=triple(colour), emission_strength=strength)
 

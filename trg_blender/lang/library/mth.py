@@ -62,9 +62,7 @@ def _dot(a: Vec3, b: Vec3) -> float:
 
 
 def _cross(a: Vec3, b: Vec3) -> Vec3:
-    return Vec3.of(
-        a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
-    )
+    return Vec3.of(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
 
 
 def _length(v: Vec3) -> float:
@@ -142,9 +140,7 @@ HOST.pure("mth::length", "v: vec3", "Length of a vector.", _length)
 HOST.function("mth::normalize", "v: vec3", "The vector at length 1.", "vec3")(_normalize)
 HOST.function("mth::pow", "x: num, y: num", "x to the power y.", "num")(_pow)
 HOST.function("mth::mix", "a: num|vec3, b: num|vec3, t: num", "a (1 - t) + b t.", "num|vec3")(_mix)
-HOST.function("mth::noise", "p: num|vec3", "Smooth noise in -1..1, fixed for each place.", "num")(
-    _noise
-)
+HOST.function("mth::noise", "p: num|vec3", "Smooth noise in -1..1, fixed for each place.", "num")(_noise)
 HOST.function(
     "mth::rand", "low: num = 0, high: num = 1", "A random number; the same row in every run.", "num"
 )(_rand)

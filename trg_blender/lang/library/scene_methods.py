@@ -6,8 +6,8 @@ from collections.abc import Iterator
 
 from ..bind import HOST
 from ..runtime import Runtime
-from ..scene import CameraRecord, SceneDescription, Vec3 as Triple
-from ..scene import LightRecord, ShapeRecord, TextureRecord
+from ..scene import CameraRecord, LightRecord, SceneDescription, ShapeRecord, TextureRecord
+from ..scene import Vec3 as Triple
 from ..source import Span
 from ..values import Value
 from ..vector import Vec3
@@ -65,7 +65,7 @@ class SceneObject(Value):
         extra = {} if self.background is None else {"background": self.background}
         return SceneDescription(
             frame, self._shape_records, self._light_records, self.camera,
-            ambient=self.ambient, modes=self.rt.modes, origin=origin, **extra,  # type: ignore[arg-type]
+            ambient=self.ambient, modes=self.rt.modes, origin=origin, **extra,
         )  # fmt: skip
 
     def _refresh(self) -> None:
@@ -110,7 +110,7 @@ def _cam_set(rt: Runtime, scene: SceneObject, width: float, height: float, *rest
     loc, at, up, fov = rest
     if loc == at:
         raise name_error("Scene.CamSet", "the camera stands where it looks at")
-    if not any(up):  # type: ignore[call-overload]
+    if up == Vec3.of(0.0, 0.0, 0.0):
         raise name_error("Scene.CamSet", "the up vector has no length")
     site = rt.site()
     scene.camera = CameraRecord(

@@ -28,7 +28,7 @@ _LOOKS = "mtl: material|medium?, envi: material|medium?"
 
 
 def _make(
-    rt: Runtime, kind: str, parameters: tuple[Triple | float | str, ...], looks: tuple[object, object]
+    rt: Runtime, kind: str, parameters: tuple[Triple | float | str, ...], looks: tuple[object, ...]
 ) -> Shape:
     """A shape with material and medium, given in either order, each at most once."""
     first, second = looks
@@ -84,26 +84,24 @@ def _plane(rt: Runtime, normal: Vec3, distance: float, a: object, b: object) -> 
     "tor", f"centre: vec3, tube_radius: num > 0, ring_radius: num > 0, {_LOOKS}",
     "A torus round the Y axis.", "shape",
 )  # fmt: skip
-def _tor(rt: Runtime, centre: Vec3, tube: float, ring: float, a: object, b: object) -> object:
-    return _make(rt, "tor", (triple(centre), tube, ring), (a, b))
+def _tor(rt: Runtime, centre: Vec3, tube: float, ring: float, *looks: object) -> object:
+    return _make(rt, "tor", (triple(centre), tube, ring), looks)
 
 
 @HOST.function(
     "conus", f"base_centre: vec3, radius: num > 0, height: num > 0, {_LOOKS}",
     "A cone that stands on its base and points along +Y.", "shape",
 )  # fmt: skip
-def _conus(rt: Runtime, base: Vec3, radius: float, height: float, a: object, b: object) -> object:
-    return _make(rt, "conus", (triple(base), radius, height), (a, b))
+def _conus(rt: Runtime, base: Vec3, radius: float, height: float, *looks: object) -> object:
+    return _make(rt, "conus", (triple(base), radius, height), looks)
 
 
 @HOST.function(
     "cylinder", f"base_centre: vec3, radius: num > 0, height: num > 0, {_LOOKS}",
     "A cylinder that stands on its base, along +Y.", "shape",
 )  # fmt: skip
-def _cylinder(
-    rt: Runtime, base: Vec3, radius: float, height: float, a: object, b: object
-) -> object:
-    return _make(rt, "cylinder", (triple(base), radius, height), (a, b))
+def _cylinder(rt: Runtime, base: Vec3, radius: float, height: float, *looks: object) -> object:
+    return _make(rt, "cylinder", (triple(base), radius, height), looks)
 
 
 @HOST.function(
@@ -117,8 +115,8 @@ def _fence(rt: Runtime, centre: Vec3, radius: float, height: float, *rest: objec
 
 
 @HOST.function("triangle", f"p0: vec3, p1: vec3, p2: vec3, {_LOOKS}", "One triangle.", "shape")
-def _triangle(rt: Runtime, p0: Vec3, p1: Vec3, p2: Vec3, a: object, b: object) -> object:
-    return _make(rt, "triangle", (triple(p0), triple(p1), triple(p2)), (a, b))
+def _triangle(rt: Runtime, p0: Vec3, p1: Vec3, p2: Vec3, *looks: object) -> object:
+    return _make(rt, "triangle", (triple(p0), triple(p1), triple(p2)), looks)
 
 
 @HOST.function(

@@ -112,10 +112,11 @@ class Placed(Value):
     """A shape or a light: stands in the scene or not, and can be moved and named."""
 
     __slots__ = ("rt",)
+    rt: Runtime
 
     def touch(self) -> None:
         """Note that the record must be made anew."""
-        self.rt.scene.dirty[self] = None
+        self.rt.scene.dirty[self] = None  # type: ignore[index]
 
     def move_by(self, change: Callable[[Transform], Transform]) -> None:
         """Replace the transform by `change` of it."""
