@@ -107,20 +107,17 @@ void Film::read_depth(float* out) const {
 }
 
 void Film::read_replicates(double* out, int64_t* counts) const {
-    uint32_t most = 0;
-    std::vector<uint32_t> done(tile_count_);
-    for (int index = 0; index < tile_count_; ++index) {
-        done[index] = tiles_[index].samples_published.load(std::memory_order_acquire);
-        most = std::max(most, done[index]);
-    }
-    for (int r = 0; r < kReplicates; ++r) counts[r] = replicate_count(most, r);
+    uint32_t least = ~0u;
+    for (int index = 0; index < tile_count_; ++index)
+        least = std::min(least, tiles_[index].samples_published.load(std::memory_order_acquire));
+    for (int r = 0; r < kReplicates; ++r) counts[r] = replicate_count(least, r);
     const int64_t plane = static_cast<int64_t>(width()) * height() * 3;
     std::fill(out, out + plane * kReplicates, 0.0);
     for (int index = 0; index < tile_count_; ++index) {
         const std::lock_guard<std::mutex> hold(tiles_[index].lock);
         for (int r = 0; r < replicates_; ++r) {
             const int64_t here = replicate_count(tiles_[index].samples_done, r);
-            if (here == 0) continue;
+            if (counts[r] == 0) continue;
             const double scale = static_cast<double>(counts[r]) / static_cast<double>(here);
             for (const Pixel& pixel : tiles_[index].pixels)
                 for (int c = 0; c < 3; ++c)

@@ -68,8 +68,8 @@ class Film {
     void read_combined(float* out) const;
     void read_normal(float* out) const;
     void read_depth(float* out) const;
-    /// (8, h, w, 3) sums and (8,) samples. Where a tile was left behind by a cancelled render, its
-    /// sums are scaled up to the samples of the tile that came farthest.
+    /// (8, h, w, 3) sums and (8,) samples that every tile has. The sums of tiles that are further
+    /// ahead are scaled down to these; sums / samples are still the means of all their samples.
     void read_replicates(double* sums, int64_t* counts) const;
 
   private:

@@ -9,7 +9,6 @@ struct Surface {
     Vec3 position;
     Vec3 outside;      // unit geometric normal on the outer side
     float error;       // how far along the normal the true surface may be
-    float area2;       // twice the triangle's area in world space
     float u, v;        // texture coordinates
     int32_t material;
 };
@@ -52,6 +51,30 @@ TRG_FN int32_t material_of(const SceneView& scene, const EmissiveTriangle& at) {
     return scene.slot_materials[scene.first_slot[at.instance] + (slot < count ? slot : count - 1)];
 }
 
+/// Asks memory for the triangle of a hit that will be shaded soon.
+template <uint32_t F>
+TRG_FN void prefetch_surface(const SceneView& scene, const Hit& hit) {
+#if defined(__GNUC__)
+    if (hit.triangle < 0) return;
+    const MeshView& mesh = scene.meshes[scene.instances[hit.instance].mesh];
+    __builtin_prefetch(&mesh.triangles[hit.triangle]);
+    if (has(F, kSmoothNormals) && mesh.normals)
+        __builtin_prefetch(mesh.normals + static_cast<int64_t>(hit.triangle) * 9);
+    if (has(F, kTextures) && mesh.uvs)
+        __builtin_prefetch(mesh.uvs + static_cast<int64_t>(hit.triangle) * 6);
+#endif
+}
+
+/// The same for the corners, once the triangle is there.
+TRG_FN void prefetch_corners(const SceneView& scene, const Hit& hit) {
+#if defined(__GNUC__)
+    if (hit.triangle < 0) return;
+    const MeshView& mesh = scene.meshes[scene.instances[hit.instance].mesh];
+    const Triangle& t = mesh.triangles[hit.triangle];
+    for (int32_t corner : t.vertex) __builtin_prefetch(&mesh.vertices[corner]);
+#endif
+}
+
 /// The point with barycentrics (b1, b2). The normal is null where the triangle has no usable one.
 template <uint32_t F>
 TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, float b1, float b2) {
@@ -67,10 +90,9 @@ TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, 
         e1 = transform_vector(instance.object_to_world, e1);
         e2 = transform_vector(instance.object_to_world, e2);
     }
-    const float size = std::fmax(max_component(absolute(e1)), max_component(absolute(e2)));
-    const Vec3 n = cross(e1 / size, e2 / size);
-    s.outside = normalize_safe(instance.mirrored ? -n : n);
-    s.area2 = length(n) * size * size;
+    const float size = larger(max_component(absolute(e1)), max_component(absolute(e2)));
+    const float scale = (instance.mirrored ? -1.0f : 1.0f) / size;
+    s.outside = normalize_safe(cross(e1 * scale, e2 * (1.0f / size)));
     s.error = offset_bound(instance, c, s.position, s.outside);
     s.material = material_of(scene, at);
     s.u = s.v = 0.0f;

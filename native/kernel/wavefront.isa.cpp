@@ -33,6 +33,19 @@ void finish_in_background(const RenderView& view, PathQueues& queues, int32_t co
     }
 }
 
+/// Shades all paths, with the triangles of those ahead on their way from memory.
+template <uint32_t F>
+void shade_all(ShadeStage& stage, int32_t living) {
+    constexpr int32_t kAhead = 8;
+    const SceneView& scene = stage.view.scene;
+    const Hit* hits = stage.queues.hits;
+    for (int32_t slot = 0; slot < living; ++slot) {
+        if (slot + 2 * kAhead < living) prefetch_surface<F>(scene, hits[slot + 2 * kAhead]);
+        if (slot + kAhead < living) prefetch_corners(scene, hits[slot + kAhead]);
+        shade_path<F>(stage, slot);
+    }
+}
+
 template <uint32_t F>
 bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues,
                   const std::atomic<bool>& cancelled, RayCounts* counts) {
@@ -48,7 +61,7 @@ bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues
         }
         intersect_closest(world, queues.rays, queues.hits, living);
         ShadeStage stage{view, queues, depth, {queues.shadow_rays, queues.shadows, 0}, 0};
-        for (int32_t slot = 0; slot < living; ++slot) shade_path<F>(stage, slot);
+        shade_all<F>(stage, living);
         if (stage.shadows.count > 0) {
             counts->shadow += stage.shadows.count;
             intersect_any(world, queues.shadow_rays, queues.hidden, stage.shadows.count);

@@ -45,9 +45,9 @@ TRG_FN bool choose_lobes(Bsdf* b, float f_gloss) {
     const float c1 = 1.0f - b->wo.z;
     const float c5 = c1 > 0.0f ? c1 * c1 * c1 * c1 * c1 : 0.0f;
     const float base = luminance(b->f0);
-    b->p_metal = b->metal * (base + (1.0f - base) * std::fmax(c5, 0.02f));
+    b->p_metal = b->metal * (base + (1.0f - base) * larger(c5, 0.02f));
     b->p_glass = b->glass;
-    b->p_gloss = b->ior == 1.0f ? 0.0f : b->opaque * b->specular * std::fmax(f_gloss, 0.02f);
+    b->p_gloss = b->ior == 1.0f ? 0.0f : b->opaque * b->specular * larger(f_gloss, 0.02f);
     b->p_diffuse = luminance(b->diffuse) * kPi;
     const float sum = b->p_metal + b->p_glass + b->p_gloss + b->p_diffuse;
     if (!(sum > 0.0f)) return false;
@@ -194,7 +194,7 @@ TRG_FN bool sample_bsdf(const Bsdf& b, float lobe, Sample2 uv, BsdfSample* sampl
         const bool glass = kTransmission && (lobe < b.p_glass || p_mirror == 0.0f);
         if (glass) {
             bool is_done;
-            if (!sample_glass(b, h, std::fmin(lobe / b.p_glass, kBelowOne), sample, &is_done)) return false;
+            if (!sample_glass(b, h, smaller(lobe / b.p_glass, kBelowOne), sample, &is_done)) return false;
             if (is_done) return true;
         } else if (b.smooth) {
             return sample_delta(b, mirror, true, false, p_mirror, sample);

@@ -8,6 +8,10 @@ namespace trg {
 constexpr float kPi = 3.14159265358979f;
 constexpr float kInvPi = 0.318309886183791f;
 
+/// The larger and the smaller of two numbers; the second where either is not a number.
+TRG_FN float larger(float a, float b) { return a > b ? a : b; }
+TRG_FN float smaller(float a, float b) { return a < b ? a : b; }
+
 /// Right-handed unit axes; `n` is the local z.
 struct Frame {
     Vec3 s, t, n;
@@ -28,7 +32,7 @@ TRG_FN Vec3 to_world(const Frame& f, Vec3 w) { return f.s * w.x + f.t * w.y + f.
 
 /// Rec.709 luminance.
 TRG_FN float luminance(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
-TRG_FN float max_component(Vec3 c) { return std::fmax(c.x, std::fmax(c.y, c.z)); }
+TRG_FN float max_component(Vec3 c) { return larger(c.x, larger(c.y, c.z)); }
 TRG_FN Vec3 absolute(Vec3 a) { return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}; }
 TRG_FN bool is_black(Vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; }
 TRG_FN float clamp01(float x) { return x < 0.0f ? 0.0f : (x > 1.0f ? 1.0f : x); }
@@ -36,6 +40,8 @@ TRG_FN float clamp01(float x) { return x < 0.0f ? 0.0f : (x > 1.0f ? 1.0f : x); 
 /// `a` scaled to length 1 without overflow or underflow; the null vector when `a` is null or holds
 /// a number that is not finite.
 TRG_FN Vec3 normalize_safe(Vec3 a) {
+    const float square = dot(a, a);
+    if (square > 1e-20f && square < 1e20f) return a * (1.0f / std::sqrt(square));
     const float size = max_component(absolute(a));
     if (!(size > 0.0f) || !is_finite(a)) return {0.0f, 0.0f, 0.0f};
     const Vec3 scaled{a.x / size, a.y / size, a.z / size};
@@ -60,7 +66,7 @@ TRG_FN void sample_disc(float u, float v, float* x, float* y) {
 TRG_FN Vec3 sample_cosine(float u, float v) {
     float x, y;
     sample_disc(u, v, &x, &y);
-    return {x, y, std::sqrt(std::fmax(0.0f, 1.0f - x * x - y * y))};
+    return {x, y, std::sqrt(larger(0.0f, 1.0f - x * x - y * y))};
 }
 
 /// Share of the first of two sampling techniques by the power heuristic (Veach and Guibas 1995).

@@ -50,7 +50,7 @@ TRG_FN float eval_spot(const Light& light, Vec3 travel) {
 /// Half of the unit cone of squared chord `chord2` around `axis`, uniform by solid angle.
 TRG_FN Vec3 sample_cone(Vec3 axis, float chord2, Sample2 uv) {
     const float drop = 0.5f * chord2 * uv.u;   // 1 - cos
-    const float sine = std::sqrt(std::fmax(0.0f, drop * (2.0f - drop)));
+    const float sine = std::sqrt(larger(0.0f, drop * (2.0f - drop)));
     const float phi = 2.0f * kPi * uv.v;
     return to_world(make_frame(axis),
                     {sine * std::cos(phi), sine * std::sin(phi), 1.0f - drop});
@@ -88,7 +88,7 @@ TRG_FN bool sample_delta_point(const Light& light, Vec3 p, LightSample* sample) 
 /// Squared chord of the cone that a sphere of `radius` fills at squared distance `d2` (> radius^2).
 TRG_FN float sphere_chord2(float radius, float d2) {
     const float sine2 = radius * radius / d2;
-    return 2.0f * sine2 / (1.0f + std::sqrt(std::fmax(0.0f, 1.0f - sine2)));
+    return 2.0f * sine2 / (1.0f + std::sqrt(larger(0.0f, 1.0f - sine2)));
 }
 
 /// Distance along unit `wi` from `p` to the near side of the sphere, if it is ahead.
@@ -110,7 +110,7 @@ TRG_FN bool sample_sphere(const Light& light, Vec3 p, Sample2 uv, LightSample* s
     sample->wi = sample_cone(to / std::sqrt(d2), chord2, uv);
     if (!intersect_sphere_light(light, p, sample->wi, &sample->distance)) {
         // Rounding at the rim: the tangent point stands in.
-        sample->distance = std::sqrt(std::fmax(0.0f, d2 - light.radius * light.radius));
+        sample->distance = std::sqrt(larger(0.0f, d2 - light.radius * light.radius));
     }
     const float solid_angle = kPi * chord2;
     sample->pdf = 1.0f / solid_angle;

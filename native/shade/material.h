@@ -61,7 +61,7 @@ TRG_FN float place_texel(float position, int32_t size, Wrap wrap) {
     if (!std::isfinite(position)) return 0.0f;
     if (wrap == Wrap::repeat) position -= std::floor(position);
     const float texel = position * static_cast<float>(size) - 0.5f;
-    return std::fmin(std::fmax(texel, -1.0f), static_cast<float>(size));
+    return smaller(larger(texel, -1.0f), static_cast<float>(size));
 }
 
 /// Linear colour of `texture` at (u, v), bilinear between the centres of texels.
