@@ -197,13 +197,18 @@ class Runtime:
         span = site.operands[operand] if operand < len(site.operands) else site.span
         self.warn("W701", span)
 
+    @property
+    def output_is_cut(self) -> bool:
+        """Whether nothing more will be shown of this frame: what is printed need not be put into words."""
+        return self._output_cut or self._lines_this_frame > self.limits.output_lines_frame
+
     def write_line(self, text: str) -> None:
         """Add a line to the output, within the limits; the first line too many says so."""
         limits = self.limits
         self.work_on_text(len(text))
         if len(text) > limits.output_columns:
             text = text[: limits.output_columns] + " ..."
-        if self._output_cut or self._lines_this_frame > limits.output_lines_frame:
+        if self.output_is_cut:
             return
         self._lines_this_frame += 1
         over = self._lines_this_frame > limits.output_lines_frame

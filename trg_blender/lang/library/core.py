@@ -10,7 +10,8 @@ from ..vector import Vec3
 
 @HOST.function("print", "...values: anything", "Write values to the log, one line.")
 def _print(rt: Runtime, *values: object) -> object:
-    rt.write_line(" ".join(format_value(value) for value in values))
+    if not rt.output_is_cut:
+        rt.write_line(" ".join(format_value(value) for value in values))
     return rt.undef
 
 
