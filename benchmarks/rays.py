@@ -65,7 +65,9 @@ def read_mesh(path: Path) -> Mesh:
         return read_g3dm(path)
     with np.load(path) as arrays:
         by_width = {arrays[k].dtype.kind: arrays[k] for k in arrays.files if arrays[k].ndim == 2}
-        return Mesh(by_width["f"].astype(np.float32), by_width["i" if "i" in by_width else "u"].astype(np.int32))
+        return Mesh(
+            by_width["f"].astype(np.float32), by_width["i" if "i" in by_width else "u"].astype(np.int32)
+        )
 
 
 def primary_rays(mesh: Mesh, count: int) -> Rays:

@@ -24,9 +24,7 @@ class Mesh:
 
 
 def mesh_of(vertices: Float64, triangles: Int32) -> Mesh:
-    return Mesh(
-        np.ascontiguousarray(vertices, dtype=np.float32), np.ascontiguousarray(triangles, np.int32)
-    )
+    return Mesh(np.ascontiguousarray(vertices, dtype=np.float32), np.ascontiguousarray(triangles, np.int32))
 
 
 def icosphere(levels: int, scale: float = 1.0, offset: float = 0.0) -> Mesh:

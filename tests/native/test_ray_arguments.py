@@ -64,9 +64,15 @@ def test_a_bad_row_among_many_instances_is_named_and_none_is_added():
     ("arguments", "message"),
     [
         ((np.zeros((2, 3)), np.zeros((2, 3), np.float32)), "origins: expected float32, got float64"),
-        ((np.zeros((2, 3), np.float32), np.zeros((3, 3), np.float32)), r"directions: expected shape \(2, 3\)"),
+        (
+            (np.zeros((2, 3), np.float32), np.zeros((3, 3), np.float32)),
+            r"directions: expected shape \(2, 3\)",
+        ),
         ((np.zeros((2, 2), np.float32), np.zeros((2, 3), np.float32)), r"origins: expected shape \(n, 3\)"),
-        ((np.zeros((2, 3), np.float32), np.ones((2, 3), np.float32), np.zeros(3)), r"tmin: expected shape \(2,\)"),
+        (
+            (np.zeros((2, 3), np.float32), np.ones((2, 3), np.float32), np.zeros(3)),
+            r"tmin: expected shape \(2,\)",
+        ),
     ],
 )
 def test_bad_rays_arguments_are_refused(arguments, message: str):
@@ -77,7 +83,12 @@ def test_bad_rays_arguments_are_refused(arguments, message: str):
 def test_outputs_that_cannot_be_written_are_refused():
     scene = load_native().Scene()
     scene.build()
-    rays = [np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32), np.zeros(1, np.float32), np.ones(1, np.float32)]
+    rays = [
+        np.zeros((1, 3), np.float32),
+        np.ones((1, 3), np.float32),
+        np.zeros(1, np.float32),
+        np.ones(1, np.float32),
+    ]
     out = np.zeros(1, np.uint8)
     out.flags.writeable = False
     with pytest.raises(ValueError, match="out: expected a C-contiguous writable array of uint8"):

@@ -29,7 +29,9 @@ def test_the_cow_is_hit_where_embree_hits_it(accel: str):
     embree = rtcore_scene.EmbreeScene()
     mesh_construction.TriangleMesh(embree, mesh.vertices, mesh.triangles)
     rng = np.random.default_rng(1)
-    targets = mesh.vertices[rng.integers(len(mesh.vertices), size=50_000)] + rng.normal(size=(50_000, 3)) * 0.5
+    targets = (
+        mesh.vertices[rng.integers(len(mesh.vertices), size=50_000)] + rng.normal(size=(50_000, 3)) * 0.5
+    )
     origins = (rng.normal(size=(50_000, 3)) * 10 + [0, 6, 0]).astype(np.float32)
     directions = (targets - origins).astype(np.float32)
     expected = embree.run(origins, directions, output=True)

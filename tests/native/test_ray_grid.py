@@ -31,7 +31,9 @@ def test_a07_triangles_that_span_many_cells_keep_their_order():
     check_grid(soup(400, 1.5, seed=3), origins, directions)
 
 
-@pytest.mark.parametrize("direction", [(0, 0, -1), (0, -1, 0), (1, 0, 0), (1, 1, 0), (1, -1, 1), (-1, -1, -1)])
+@pytest.mark.parametrize(
+    "direction", [(0, 0, -1), (0, -1, 0), (1, 0, 0), (1, 1, 0), (1, -1, 1), (-1, -1, -1)]
+)
 def test_a08_rays_in_cell_planes_and_through_corners_are_not_lost(direction: tuple[int, int, int]):
     mesh = mesh_of(grid_of_points(9), np.random.default_rng(4).permutation(729).reshape(-1, 3))
     origins = (grid_of_points(17) - 3 * np.array(direction, float)).astype(np.float32)

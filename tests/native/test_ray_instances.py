@@ -101,7 +101,10 @@ def test_single_meshes_that_stand_still_are_one_soup_bit_by_bit(accel: str):
     scene.build()
     whole = mesh_of(np.concatenate([m.vertices for m in meshes]), np.arange(4500).reshape(-1, 3))
     origins, directions = random_rays(5000, seed=10)
-    hits, expected = scene.intersect(origins, directions), scene_of(whole, "none").intersect(origins, directions)
+    hits, expected = (
+        scene.intersect(origins, directions),
+        scene_of(whole, "none").intersect(origins, directions),
+    )
     assert np.array_equal(hits.t, expected.t)
     number = np.where(hits.triangle < 0, -1, 300 * hits.instance + hits.triangle)
     assert np.array_equal(number, expected.triangle)

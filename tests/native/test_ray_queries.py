@@ -104,7 +104,9 @@ def test_scenes_of_no_and_of_one_triangle_work(accel: str):
 def test_a_hundred_thousand_equal_triangles_build_and_trace():
     one = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
     scene = RayScene("bvh")
-    scene.add_instance(scene.add_mesh(one.astype(np.float32), np.tile(np.array([[0, 1, 2]], np.int32), (100_000, 1))))
+    scene.add_instance(
+        scene.add_mesh(one.astype(np.float32), np.tile(np.array([[0, 1, 2]], np.int32), (100_000, 1)))
+    )
     assert scene.build().seconds < 2
     assert scene.intersect([[0.2, 0.2, 1]], [[0, 0, -1]]).triangle[0] == 0
 
