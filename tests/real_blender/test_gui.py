@@ -63,4 +63,5 @@ def test_escape_cancels_at_once(blender: RealBlender, tmp_path: Path) -> None:
     noted = drive(blender, "cancel", make_blend(blender, tmp_path, program, 100_000, 100))
     assert noted["running_before_escape"]
     assert noted["cancelled"] and not noted["completed"]
-    assert noted["seconds_after_escape"] < 1.0
+    assert noted["break_to_end_s"] < 0.2, noted
+    assert noted["escape_to_end_s"] < 5.0, noted

@@ -7,9 +7,11 @@ Arguments after `--`: MODE OUT.json, where MODE is one of
 """
 
 import json
+import os
 import subprocess
 import sys
 import time
+import traceback
 
 import bpy
 from mathutils import Euler
@@ -22,7 +24,7 @@ ESCAPE_AFTER_S = 3.0
 GIVE_UP_S = 120.0
 
 seen = {"mode": MODE, "frames": 0, "completed": False, "cancelled": False, "draws": 0, "timed_out": False}
-clock = {"start": 0.0, "escape": 0.0}
+clock = {"start": 0.0, "escape": 0.0, "break": 0.0}
 
 
 def note(**facts):
@@ -31,7 +33,36 @@ def note(**facts):
 
 
 def note_cancel(*_):
-    note(cancelled=True, seconds_after_escape=time.monotonic() - clock["escape"])
+    now = time.monotonic()
+    note(cancelled=True, escape_to_end_s=now - clock["escape"], break_to_end_s=now - clock["break"])
+
+
+def watch_break():
+    """Notes when the engine reacts to Esc; before that it is Blender's time, its window drawn in software."""
+    session = next(
+        module for name, module in sys.modules.items() if name.endswith("trg_blender.engine.session")
+    )
+    cancel = session.RenderJob.cancel
+
+    def noted_cancel(job):
+        clock["break"] = clock["break"] or time.monotonic()
+        cancel(job)
+
+    session.RenderJob.cancel = noted_cancel
+
+
+def later(step, seconds):
+    """Runs `step` by a timer; a step that fails ends Blender, which would wait for ever else."""
+
+    def run():
+        try:
+            return step()
+        except Exception:
+            traceback.print_exc()
+            sys.stdout.flush()
+            os._exit(8)
+
+    bpy.app.timers.register(run, first_interval=seconds)
 
 
 def count_frame(*_):
@@ -57,22 +88,24 @@ def xdotool(*arguments):
 
 
 def point_at_viewport():
-    """Gives the window the keyboard, which no window manager does here, and puts the mouse over the 3D view."""
+    """Gives the window the keyboard, as no window manager does it, and puts the mouse over the 3D view."""
     window = xdotool("search", "--onlyvisible", "--class", "blender").split()[0]
     xdotool("windowfocus", window)
     xdotool("mousemove", "500", "450")
-    bpy.app.timers.register(begin, first_interval=1.0)
+    later(begin, 1.0)
 
 
 def begin():
     window, area, region, _ = viewport()
     clock["start"] = time.monotonic()
+    if MODE == "cancel":
+        watch_break()
     if MODE == "animation":
         with bpy.context.temp_override(window=window, area=area, region=region):
             bpy.ops.render.render("INVOKE_DEFAULT", animation=True)
     else:
         xdotool("key", F12)
-    bpy.app.timers.register(watch, first_interval=TICK_S)
+    later(watch, TICK_S)
 
 
 def turn_viewport():
@@ -95,7 +128,7 @@ def watch():
     if not over and passed < GIVE_UP_S:
         return TICK_S
     note(timed_out=not over, seconds=passed)
-    bpy.app.timers.register(finish, first_interval=1.0)
+    later(finish, 1.0)
     return None
 
 
@@ -115,4 +148,4 @@ bpy.app.handlers.render_cancel.append(note_cancel)
 bpy.types.SpaceView3D.draw_handler_add(count_draw, (), "WINDOW", "POST_PIXEL")
 bpy.context.preferences.view.show_splash = False
 bpy.context.preferences.view.render_display_type = "WINDOW" if MODE == "still" else "NONE"
-bpy.app.timers.register(point_at_viewport, first_interval=2.0)
+later(point_at_viewport, 2.0)
