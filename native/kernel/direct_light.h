@@ -53,12 +53,12 @@ TRG_FN int32_t find_share(const uint32_t* limits, int32_t count, uint32_t bits) 
     return low;
 }
 
-/// Queues what light `index`, chosen with chance `share`, sends to `v`.
+/// Queues what `emitter`, chosen with chance `share`, sends to `v`.
 template <uint32_t F>
-TRG_FN void add_light_sample(const SceneView& scene, const Vertex& v, int32_t index, float share,
-                             Sample2 uv, ShadowQueue* queue) {
+TRG_FN void add_light_sample(const Light& emitter, const Vertex& v, float share, Sample2 uv,
+                             ShadowQueue* queue) {
     LightSample sample;
-    if (!sample_light(scene.lights[index], v.surface.position, uv, &sample)) return;
+    if (!sample_light(emitter, v.surface.position, uv, &sample)) return;
     const BsdfValue f =
         eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, sample.wi));
     const float weight =
@@ -102,7 +102,7 @@ template <uint32_t F>
 TRG_FN void add_light_samples(const SceneView& scene, const Vertex& v, ShadowQueue* queue) {
     const EmitterView& e = scene.emitters;
     for (int32_t k = 0; k < e.always_count; ++k)
-        add_light_sample<F>(scene, v, e.always[k], 1.0f,
+        add_light_sample<F>(scene.lights[e.always[k]], v, 1.0f,
                             sample_uniform2(v.key, v.dimension + kAlwaysLight + k), queue);
     if (e.pool_count == 0) return;
     const Sample2 uv = sample_uniform2(v.key, v.dimension + kPoolPoint);
@@ -111,7 +111,7 @@ TRG_FN void add_light_samples(const SceneView& scene, const Vertex& v, ShadowQue
         sample_bits(v.key, v.dimension + kPoolChoice, choice);
     const int32_t entry = find_share(e.pool_limits, e.pool_count, choice[0]);
     if (e.pool[entry] >= 0) {
-        add_light_sample<F>(scene, v, e.pool[entry], e.pool_shares[entry], uv, queue);
+        add_light_sample<F>(scene.lights[e.pool[entry]], v, e.pool_shares[entry], uv, queue);
     } else {
         if constexpr (has(F, kExtendedEmitters)) add_triangle_sample<F>(scene, v, choice[1], uv, queue);
     }

@@ -1,6 +1,7 @@
 /// The extension module trg_native: types, version, and what this machine and build can do.
 #include "base/isa.h"
 #include "base/parallel.h"
+#include "kernel/kernel_sets.h"
 #include "py/job_object.h"
 #include "py/py_ref.h"
 #include "py/scene_object.h"
@@ -27,15 +28,15 @@ constexpr const char* kCompiledSets = "baseline";
 
 PyObject* info(PyObject*, PyObject*) {
     return guarded_object([] {
-        return checked(Py_BuildValue("{s:s, s:s, s:s, s:i}", "compiler", kCompiler,
+        return checked(Py_BuildValue("{s:s, s:s, s:s, s:s, s:i}", "compiler", kCompiler,
                                      "instruction_set", isa_name(detect_isa()),
-                                     "compiled_sets", kCompiledSets, "cores", resolve_threads(0)));
+                                     "compiled_sets", kCompiledSets, "kernel_sets", kernel_set_names(), "cores", resolve_threads(0)));
     });
 }
 
 PyMethodDef kModuleMethods[] = {
     {"info", info, METH_NOARGS,
-     "info() -> dict: compiler, instruction_set in use, compiled_sets, cores"},
+     "info() -> dict: compiler, instruction_set in use, compiled_sets, kernel_sets, cores"},
     {nullptr, nullptr, 0, nullptr}};
 
 int execute_module(PyObject* module) {

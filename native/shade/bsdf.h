@@ -146,21 +146,27 @@ TRG_FN Vec3 refract_or_reflect(Vec3 wo, Vec3 h, float eta, float u, bool* reflec
     return normalize(h * (c - g) - wo);
 }
 
-/// The sample of a lobe that is a delta (or is treated as one: `thin_step`).
-TRG_FN bool sample_delta(const Bsdf& b, Vec3 wi, bool reflected, bool from_glass, float p,
-                         BsdfSample* sample) {
-    sample->wi = wi;
+/// True when `wi` lies on the side of both normals that a reflection (or a refraction) must take.
+TRG_FN bool on_right_side(const Bsdf& b, Vec3 wi, bool reflected) {
+    return reflected == (wi.z > 0.0f) && reflected == (dot(b.ng, wi) > 0.0f);
+}
+
+/// An interface event that is a delta, or is treated as one (`thin_step`).
+TRG_FN bool sample_glass_delta(const Bsdf& b, Vec3 wi, bool reflected, BsdfSample* sample) {
+    const float weight = b.glass / b.p_glass;
     sample->pdf = 0.0f;
-    if (reflected != (wi.z > 0.0f) || reflected != (dot(b.ng, wi) > 0.0f)) return false;
-    if (from_glass) {
-        const float weight = b.glass / b.p_glass;
-        sample->weight = reflected ? Vec3{weight, weight, weight} : b.tint * weight;
-        return true;
-    }
+    sample->weight = reflected ? Vec3{weight, weight, weight} : b.tint * weight;
+    return on_right_side(b, wi, reflected);
+}
+
+/// The ideal mirror of metal and opaque dielectric together.
+TRG_FN bool sample_mirror(const Bsdf& b, BsdfSample* sample) {
+    sample->wi = {-b.wo.x, -b.wo.y, b.wo.z};
+    sample->pdf = 0.0f;
     const float gloss = b.opaque * b.specular * fresnel_dielectric(b.wo.z, b.ior);
     const Vec3 f = fresnel_schlick(b.f0, b.wo.z) * b.metal + Vec3{gloss, gloss, gloss};
-    sample->weight = f * (1.0f / p);
-    return true;
+    sample->weight = f * (1.0f / (b.p_metal + b.p_gloss));
+    return on_right_side(b, sample->wi, true);
 }
 
 /// The interface alone: an ideal one, or one whose refraction can only be sampled.
@@ -173,7 +179,7 @@ TRG_FN bool sample_glass(const Bsdf& b, Vec3 h, float u, BsdfSample* sample, boo
     // for one of the other side, whose density does not count this way of finding it.
     if (reflected != (wi.z > 0.0f)) return false;
     if (!*is_done) return true;
-    if (!sample_delta(b, wi, reflected, true, 1.0f, sample)) return false;
+    if (!sample_glass_delta(b, wi, reflected, sample)) return false;
     if (!b.smooth)
         sample->weight =
             sample->weight * ((1.0f + b.slope_wo) / (b.slope_wo + ggx_slope(wi, b.alpha)));
@@ -183,7 +189,6 @@ TRG_FN bool sample_glass(const Bsdf& b, Vec3 h, float u, BsdfSample* sample, boo
 /// A direction drawn from the mixture by `lobe` (which lobe) and `uv`. False: absorbed.
 template <bool kTransmission>
 TRG_FN bool sample_bsdf(const Bsdf& b, float lobe, Sample2 uv, BsdfSample* sample) {
-    const Vec3 mirror{-b.wo.x, -b.wo.y, b.wo.z};
     const float p_mirror = b.p_metal + b.p_gloss;
     if (lobe < b.p_diffuse || b.p_glass + p_mirror == 0.0f) {
         sample->wi = sample_cosine(uv.u, uv.v);
@@ -194,10 +199,11 @@ TRG_FN bool sample_bsdf(const Bsdf& b, float lobe, Sample2 uv, BsdfSample* sampl
         const bool glass = kTransmission && (lobe < b.p_glass || p_mirror == 0.0f);
         if (glass) {
             bool is_done;
-            if (!sample_glass(b, h, smaller(lobe / b.p_glass, kBelowOne), sample, &is_done)) return false;
+            const float u = smaller(lobe / b.p_glass, kBelowOne);
+            if (!sample_glass(b, h, u, sample, &is_done)) return false;
             if (is_done) return true;
         } else if (b.smooth) {
-            return sample_delta(b, mirror, true, false, p_mirror, sample);
+            return sample_mirror(b, sample);
         } else {
             sample->wi = h * (2.0f * dot(b.wo, h)) - b.wo;
             if (!(sample->wi.z > 0.0f)) return false;

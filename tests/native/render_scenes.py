@@ -25,6 +25,7 @@ SUN, POINT, SPOT, RECTANGLE, ELLIPSE = range(5)
 WHITE = Material(1.0, 1.0, 1.0, specular=0.0)
 GREY = Material(0.5, 0.5, 0.5, specular=0.0)
 BLACK = Material(0.0, 0.0, 0.0, specular=0.0)
+GLOW = Material(0.0, 0.0, 0.0, specular=0.0, emission_r=1.0, emission_g=1.0, emission_b=1.0)
 
 
 @dataclass

@@ -23,6 +23,7 @@ from trg_blender.engine.scene_arrays import (
 
 from .render_scenes import (
     BLACK,
+    GLOW,
     GREY,
     POINT,
     RECTANGLE,
@@ -47,7 +48,8 @@ GLASS = Material(0.9, 1.0, 0.9, transmission=1.0, roughness=0.6)
 
 def mixed_scene(built: bool = True) -> Any:
     """A floor, a glass and a plastic sphere, an area light and a point, seen from above."""
-    lights = [Light(RECTANGLE, 5.0, 5.0, 4.0, position_z=2.5, direction_z=-1.0, axis_u_x=0.5, axis_v_y=0.5),
+    lights = [Light(RECTANGLE, 5.0, 5.0, 4.0, position_z=2.5, direction_z=-1.0, axis_u_x=0.5,
+                    axis_v_y=0.5),
               Light(POINT, 1.0, 2.0, 3.0, position_x=1.0, position_z=2.0)]
     scene = new_scene([GREY, PLASTIC, GLASS], world=0.2, lights=lights)
     add_object(scene, make_floor())
@@ -243,16 +245,14 @@ def test_passes_not_asked_for_are_refused() -> None:
 
 
 def test_clipping_hides_from_the_camera_alone() -> None:
-    glow = Material(0.0, 0.0, 0.0, specular=0.0, emission_r=1.0, emission_g=1.0, emission_b=1.0)
-    scene = new_scene([glow])
+    scene = new_scene([GLOW])
     add_object(scene, make_floor())
     for clip, seen in (((0.1, 10.0), 1.0), ((3.5, 10.0), 0.0), ((0.1, 2.5), 0.0)):
         assert picture(scene, Settings(4, 4, samples=1), Camera(clip=clip))[..., 0].mean() == seen
 
 
 def test_a_perspective_camera_sees_by_its_window() -> None:
-    glow = Material(0.0, 0.0, 0.0, specular=0.0, emission_r=1.0, emission_g=1.0, emission_b=1.0)
-    scene = new_scene([glow])
+    scene = new_scene([GLOW])
     add_object(scene, make_floor(0.5))
     pixels = picture(scene, Settings(30, 30, samples=8), Camera(eye=(0, 0, 1), kind=0, half_width=1.5))
     assert (pixels[10:20, 10:20, 0] == 1.0).all()
@@ -270,12 +270,9 @@ def test_empty_scenes_show_their_world() -> None:
 def test_a_black_surface_ends_paths() -> None:
     scene = new_scene([BLACK], world=1.0)
     add_object(scene, make_floor())
-    job_state = None
     Camera().apply(scene)
     scene.build(1)
-    job = start(scene, Settings(4, 4, samples=4))
-    job_state = finish(job)
-    assert job_state["rays_bounce"] == 0
+    assert finish(start(scene, Settings(4, 4, samples=4)))["rays_bounce"] == 0
 
 
 def test_samples_that_are_not_finite_are_counted_and_dropped() -> None:
@@ -291,8 +288,11 @@ def test_samples_that_are_not_finite_are_counted_and_dropped() -> None:
     assert np.isfinite(pixels).all()
 
 
-@pytest.mark.parametrize(("column", "value"), [("metallic", 1.5), ("roughness", np.nan), ("ior", 0.0), ("base_r", -1.0),
-                                               ("emission_g", np.inf), ("base_texture", 0.0), ("specular", 2.0)])
+@pytest.mark.parametrize(
+    ("column", "value"),
+    [("metallic", 1.5), ("roughness", np.nan), ("ior", 0.0), ("base_r", -1.0), ("emission_g", np.inf),
+     ("base_texture", 0.0), ("specular", 2.0)],
+)
 def test_an_impossible_material_is_named_by_row_and_column(column: str, value: float) -> None:
     table = pack_table([Material(), Material()], MATERIAL_FIELDS)
     table[1, MATERIAL_FIELDS.index(column)] = value
@@ -300,7 +300,9 @@ def test_an_impossible_material_is_named_by_row_and_column(column: str, value: f
         trg_native.Scene().set_materials(table)
 
 
-@pytest.mark.parametrize(("column", "value"), [("kind", 5.0), ("kind", 0.5), ("color_r", np.nan), ("radius", -1.0)])
+@pytest.mark.parametrize(
+    ("column", "value"), [("kind", 5.0), ("kind", 0.5), ("color_r", np.nan), ("radius", -1.0)]
+)
 def test_an_impossible_light_is_named_by_row_and_column(column: str, value: float) -> None:
     table = pack_table([Light(POINT, 1, 1, 1), Light(POINT, 1, 1, 1)], LIGHT_FIELDS)
     table[1, LIGHT_FIELDS.index(column)] = value

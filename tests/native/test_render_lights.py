@@ -72,8 +72,8 @@ def test_a_spot_follows_smoothstep_between_its_cones() -> None:
 def test_the_papers_falloff_is_capped_at_one() -> None:
     for height, coefficients in ((0.1, (0.0, 1.0, 0.0)), (2.0, (0.0, 1.0, 0.0)), (3.0, (0.5, 0.25, 2.0))):
         c, linear, q = coefficients
-        light = Light(POINT, 5.0, 5.0, 5.0, position_z=height, radius=9.0, falloff_constant=c, falloff_linear=linear,
-                      falloff_quadratic=q)
+        light = Light(POINT, 5.0, 5.0, 5.0, position_z=height, radius=9.0, falloff_constant=c,
+                      falloff_linear=linear, falloff_quadratic=q)
         factor = min(1.0, 1.0 / (c + linear * height + q * height * height))
         assert floor_radiance([light]) == pytest.approx(0.5 / np.pi * 5.0 * factor, rel=1e-3)
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -15,6 +17,7 @@ from trg_blender.engine.scene_arrays import (
 )
 
 from .render_scenes import (
+    GLOW,
     SUN,
     WHITE,
     Camera,
@@ -110,7 +113,7 @@ def test_a_mirror_shows_the_world_tinted_by_its_colour() -> None:
 
 def test_a_pane_of_glass_transmits_by_fresnel_at_both_faces() -> None:
     glass = Material(1.0, 1.0, 1.0, transmission=1.0, roughness=0.0, ior=1.5)
-    scene = new_scene([glass, Material(0.0, 0.0, 0.0, specular=0.0, emission_r=1.0, emission_g=1.0, emission_b=1.0)])
+    scene = new_scene([glass, GLOW])
     add_object(scene, make_floor(50.0, 0.0))
     bottom = make_floor(50.0, -0.1)
     add_object(scene, (bottom[0], bottom[1][:, ::-1].copy()))
@@ -130,8 +133,7 @@ def test_an_image_shows_texel_by_texel_in_linear_light() -> None:
     pixels = np.array([[[0, 64, 255], [128, 128, 128]], [[255, 0, 0], [10, 200, 30]]], np.uint8)
     scene.add_image(pixels, True)
     scene.set_textures(pack_table([Texture(0, wrap=1)], TEXTURE_FIELDS))
-    glow = Material(0.0, 0.0, 0.0, specular=0.0, emission_r=1.0, emission_g=1.0, emission_b=1.0, emission_texture=0)
-    scene.set_materials(pack_table([glow], MATERIAL_FIELDS))
+    scene.set_materials(pack_table([replace(GLOW, emission_texture=0)], MATERIAL_FIELDS))
     vertices, triangles = make_floor()
     uvs = np.ascontiguousarray((vertices[triangles][..., :2] + 1) / 2)
     scene.add_instance(scene.add_mesh(vertices, triangles, None, uvs, None), None, np.zeros(1, np.int32))
