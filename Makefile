@@ -1,7 +1,7 @@
 # TRG for Blender. On a fresh machine with Python 3.11 or 3.13, a C++ compiler, make and git:
 #   make render      set up .venv, build, render examples/fence.trg to out/fence.png
 #   make test        the same set-up for both Pythons, then every test
-#   make lint        formatters, types, sizes of functions
+#   make lint        ruff, mypy, clang-format
 #   make extension   dist/trg-*.zip for Blender's Edit > Preferences > Get Extensions > Install from Disk
 #   make clean       remove what was built; .venv and .venv/* stay (make distclean removes them too)
 
