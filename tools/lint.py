@@ -1,4 +1,4 @@
-"""Runs formatters and type checker, all of them, then says which failed. Sizes are a matter of tests/rooms."""
+"""Runs formatters and type checker, all of them, then says which failed. Sizes: see tests/rooms."""
 
 from __future__ import annotations
 
