@@ -112,7 +112,10 @@ class Cursor:
         return None
 
     def skip_statement(self) -> None:
-        """After an error: behind the next `;` or block, or before the `}` that ends this block."""
+        """After an error: behind the next `;` or block, or before the `}` that ends this block.
+
+        An `else` that follows belongs to the statement that was given up.
+        """
         depth = 0
         while self.token.kind != "end":
             if depth == 0 and self.sees("}"):
@@ -124,8 +127,18 @@ class Cursor:
                 depth += 1
             elif token.text == "}":
                 depth -= 1
-                if depth == 0:
+                if depth == 0 and not self.sees("else"):
                     self.accept(";")
                     return
-            elif token.text == ";" and depth == 0:
+            elif token.text == ";" and depth == 0 and not self.sees("else"):
                 return
+
+    def skip_to(self, *words: str) -> None:
+        """After an error: before one of `words` or the `}` that ends this block."""
+        depth = 0
+        while self.token.kind != "end":
+            if depth == 0 and any(map(self.sees, (*words, "}"))):
+                return
+            token = self.next()
+            if token.kind == "op" and token.text in "{}":
+                depth += 1 if token.text == "{" else -1

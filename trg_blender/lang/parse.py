@@ -171,10 +171,25 @@ class Parser:
         while not cursor.sees("}"):
             if cursor.token.kind == "end":
                 self._unclosed(opening.span)
-            cases.append(self._case(cases))
+            self._recovering_case(cases)
         cursor.next()
         self.around.pop()
         return ast.Switch(start, subject, tuple(cases))
+
+    def _recovering_case(self, cases: list[ast.Case]) -> None:
+        """Parse one case into `cases`; after an error skip to the next, past the limit to the end."""
+        cursor = self.cursor
+        levels = cursor.levels
+        start = cursor.at
+        try:
+            cases.append(self._case(cases))
+        except SyntaxStop:
+            if self.bag.full:
+                raise
+            cursor.levels = levels
+            if cursor.at == start:
+                cursor.next()
+            cursor.skip_to(*(() if len(cases) == MAX_CASES else ("case", "default")))
 
     def _case(self, before: list[ast.Case]) -> ast.Case:
         cursor = self.cursor

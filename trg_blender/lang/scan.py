@@ -25,13 +25,13 @@ _TOKEN = re.compile(
   | (?P<unclosed>/\*)
   | (?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)
   | (?P<string>"[^"\\\n]*(?:\\.[^"\\\n]*)*")
-  | (?P<name>[^\W\d]\w*)
+  | (?P<name>[^\W\d][\w\u0300-\u036f]*)
   | (?P<op>\+\+|--|[-+*/%=!<>]=|&&|\|\||::|[-+*/%=!<>\#~(){},;.:])
     """,
     re.VERBOSE,
 )
 _QUOTED = re.compile(r"'[^'\n]*'?")
-_REST_OF_NAME = re.compile(r"\w+")
+_REST_OF_NAME = re.compile(r"[\w\u0300-\u036f]+")
 _ESCAPE = re.compile(r"\\(.)")
 _CHARACTER_HINTS = {
     "'": "double_quotes",
@@ -95,6 +95,8 @@ class _Scanner:
     def _take_name(self, text: str, start: int, end: int) -> None:
         name = text if text.isascii() else unicodedata.normalize("NFC", text)
         kind = "keyword" if name in KEYWORDS else "name"
+        if not (name[0].isalpha() or name[0] == "_"):  # a sign such as a raised 2 is a \\w, but no letter
+            self._error("E100", start, start + 1, text=text[0])
         if name in RESERVED_WORDS:
             self._error("E107", start, end, RESERVED_WORDS[name], name=name)
         self.tokens.append(Token(kind, name, name, self._span(start, end)))
