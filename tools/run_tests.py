@@ -51,8 +51,8 @@ class Outcome:
 def find_rooms() -> list[str]:
     """Names of the directories of tests/ that hold test files, quick rooms first."""
     names = {path.relative_to(ROOT / "tests").parts[0] for path in (ROOT / "tests").rglob("test_*.py")}
-    order = ("rooms", "lang", "native", "engine", "blender")
-    return sorted(names, key=lambda name: (name == "real_blender", name not in order, name))
+    order = ("rooms", "lang", "native", "engine", "blender", "real_blender")
+    return sorted(names, key=lambda name: (order.index(name) if name in order else len(order) - 1.5, name))
 
 
 def read_counts(report: Path) -> Counts:
