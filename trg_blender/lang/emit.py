@@ -319,7 +319,10 @@ class FunctionEmitter:
                 missing = call("R_", [constant(parameter.name, span)], span)
                 fill: py.stmt = statement(missing, span)
             else:
+                names = [p.name for p in self.info.node.parameters]
+                emit.not_yet = frozenset(names[names.index(parameter.name) :])
                 fill = assign(store(name, span), emit.value(parameter.default), span)
+                emit.not_yet = frozenset()
             made.append(when(lacks, [fill], span))
         kind = parameter.type_name
         if kind is not None:

@@ -53,6 +53,8 @@ class ExpressionEmitter:
         self.context = context
         self.suspends = context is None or context.yields
         self.weight = 0
+        self.not_yet: frozenset[str] = frozenset()
+        """Parameters that have no value while the default of an earlier one is computed."""
         self._temporaries = 0
 
     def temporary(self, letter: str = "t") -> str:
@@ -85,7 +87,8 @@ class ExpressionEmitter:
             case ast.String():
                 return load(self.parts.string_name(node.text), node.span)
             case ast.Path():
-                return load(self.variable(node), node.span)
+                absent = node.name in self.not_yet and not node.is_global
+                return load("u_" if absent else self.variable(node), node.span)
             case ast.Binary():
                 return self._spine(node, condition=False)
             case ast.Logic():

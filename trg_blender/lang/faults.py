@@ -81,6 +81,13 @@ class FaultReader:
         return tuple(reversed(calls))
 
     def _explain(self, error: BaseException, site: Site) -> TrgError:
+        """What to say of an exception. `++` is translated to a subtraction: it is named as written."""
+        told = self._read(error, site)
+        if told.code == "E410" and site.op in ("++", "--"):
+            return TrgError("E413", op=site.op, kind=told.values["left"])
+        return told
+
+    def _read(self, error: BaseException, site: Site) -> TrgError:
         if isinstance(error, TrgError):
             return error
         if isinstance(error, ZeroDivisionError):

@@ -132,6 +132,7 @@ class _Resolver:
         elif self._is_host_name(target.name, file):
             space = target.name.split("::")[0]
             self._error("E311", target.span, "choose_other_space", name=space)
+            self.result.globals.setdefault(target.name, target.span)  # one error is enough
         else:
             self.result.globals.setdefault(target.name, target.span)
 
@@ -219,7 +220,7 @@ class _LintWalk:
             if isinstance(node, ast.If):
                 for condition, _ in node.branches:
                     self._condition(condition)
-            elif isinstance(node, ast.While):
+            elif isinstance(node, ast.While | ast.For) and node.condition is not None:
                 self._condition(node.condition)
             elif isinstance(node, ast.Switch):
                 self._fall_through(node)
