@@ -39,6 +39,7 @@ class TRG_RENDER_PT_program(_RenderPanel, bpy.types.Panel):
 
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.template_ID(context.scene.trg, "program", new="text.new", open="text.open")
+        self.layout.operator("trg.build")
 
 
 class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):

@@ -7,9 +7,9 @@ import atexit
 import bpy
 
 from ..engine import render_engine, run_text
-from . import command, panels, properties
+from . import command, operators, panels, properties
 
-PARTS = (properties, render_engine, run_text, panels, command)
+PARTS = (properties, render_engine, run_text, operators, panels, command)
 
 
 def register() -> None:

@@ -1,0 +1,39 @@
+"""Operators of TRG."""
+
+from __future__ import annotations
+
+import bpy
+
+from ..engine import run_text
+
+
+class TRG_OT_build(bpy.types.Operator):
+    """Run the scene's program for the current frame, without rendering"""
+
+    bl_idname = "trg.build"
+    bl_label = "Build Scene"
+    bl_options = {"REGISTER", "UNDO"}
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        return context.scene is not None and run_text.program_of(context.scene) is not None
+
+    def execute(self, context: bpy.types.Context) -> set[str]:
+        outcome = run_text.run_program(context.scene, run_text.frame_of(context.scene))
+        if outcome is not None and outcome.failure is not None:
+            self.report({"ERROR"}, outcome.failure.text)
+            return {"CANCELLED"}
+        return {"FINISHED"}
+
+
+CLASSES = (TRG_OT_build,)
+
+
+def register() -> None:
+    for each in CLASSES:
+        bpy.utils.register_class(each)
+
+
+def unregister() -> None:
+    for each in reversed(CLASSES):
+        bpy.utils.unregister_class(each)
