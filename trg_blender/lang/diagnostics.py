@@ -78,6 +78,14 @@ class DiagnosticBag:
         self.items.append(made)
         return made
 
+    def take(self, made: Diagnostic) -> None:
+        """Add a diagnostic of another bag; nothing when that place has it or this bag is full."""
+        key = (made.code, made.span)
+        if key in self._seen or (made.severity == "error" and self.full):
+            return
+        self._seen.add(key)
+        self.items.append(made)
+
     def in_order(self) -> tuple[Diagnostic, ...]:
         """All of them by file, line and column; files in the order in which they were met."""
         files = {d.span.file: n for n, d in reversed(list(enumerate(self.items)))}

@@ -169,7 +169,8 @@ class _Printer:
         for number, (head, body) in enumerate(node.branches):
             if number:
                 word = first_piece(head)
-                if len(self.out.lines) == start and word.breaks == 0:
+                behind = word.breaks == 0 and not any(c.ends_line for c in word.comments)
+                if behind and len(self.out.lines) == start:
                     self._inline_comments(word, indent)
                     self.out.write(" ")
                 else:
@@ -238,7 +239,7 @@ class _Printer:
         for comment in piece.comments:
             if broken or comment.newlines:
                 out.new_line(indent)
-            elif not out.is_fresh:
+            elif comment.ends_line or not out.line.endswith(("(", "[")):
                 out.write("  " if comment.ends_line else " ")
             out.write_comment(comment)
             broken = comment.ends_line

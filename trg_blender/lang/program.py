@@ -16,6 +16,7 @@ from .emit_expr import ProgramParts
 from .files import FileError, FileResolver, NoFiles
 from .limits import MAX_INCLUDE_DEPTH, MAX_INCLUDES, MAX_SOURCE
 from .parse import parse_source
+from .recover import resolve_despite_errors
 from .resolve import FunctionInfo, Resolution, resolve_program
 from .runtime import Site
 from .source import SourceFile, Span
@@ -62,7 +63,7 @@ class Program:
         return self.functions[int(code_name.removeprefix("f_"))].name
 
 
-class _Loader:
+class Loader:
     """Reads the main text and everything it includes, in the order in which they run."""
 
     def __init__(self, resolver: FileResolver, bag: DiagnosticBag) -> None:
@@ -131,11 +132,9 @@ def compile_source(
 
 
 def _compile(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -> Program:
-    loader = _Loader(resolver, bag)
-    loader.load(source)
-    _stop_at_errors(bag)
-    resolution = resolve_program(loader.trees, HOST.names, bag)
-    _stop_at_errors(bag)
+    loader, resolution = understand(source, resolver, bag)
+    if bag.error_count:
+        raise ProgramError(without_consequences(bag))
     analysis = YieldAnalysis(resolution)
     analysis.run()
     parts = ProgramParts(resolution, analysis)
@@ -153,16 +152,26 @@ def _compile(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -> 
     )
 
 
-def _stop_at_errors(bag: DiagnosticBag) -> None:
-    """Raise ProgramError if the bag holds errors: parse errors on lines that the scanner already
-    reported are consequences and left out."""
-    if not bag.error_count:
-        return
+def understand(
+    source: SourceFile, resolver: FileResolver, bag: DiagnosticBag
+) -> tuple[Loader, Resolution]:
+    """Read and resolve a program, its includes too; all errors go to `bag`.
+
+    A program with errors of syntax is resolved as far as it was understood.
+    """
+    loader = Loader(resolver, bag)
+    loader.load(source)
+    if bag.error_count:
+        return loader, resolve_despite_errors(loader.trees, loader.sources, bag)
+    return loader, resolve_program(loader.trees, HOST.names, bag)
+
+
+def without_consequences(bag: DiagnosticBag) -> tuple[Diagnostic, ...]:
+    """The diagnostics in order, without parse errors on lines that the scanner already reported."""
     scanned = {(d.span.file, d.span.line) for d in bag.items if d.code.startswith("E1")}
-    kept = [
+    return tuple(
         d for d in bag.in_order() if not (d.code.startswith("E2") and (d.span.file, d.span.line) in scanned)
-    ]
-    raise ProgramError(tuple(kept))
+    )
 
 
 def _compile_file(parts: ProgramParts, trees: list[ast.FileTree], index: int) -> CodeType:
