@@ -1,0 +1,1 @@
+sphere = 5;   //! E310@1: 'sphere'

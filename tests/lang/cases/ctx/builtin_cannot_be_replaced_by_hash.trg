@@ -1,0 +1,1 @@
+f = function() { #print = 1; };   //! E310@18

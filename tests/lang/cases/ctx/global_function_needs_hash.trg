@@ -1,0 +1,2 @@
+f = function() { return 1; };
+g = function() { return f(); };   //! E301@25: #f

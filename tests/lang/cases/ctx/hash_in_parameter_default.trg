@@ -1,0 +1,1 @@
+size = 3; f = function(a = #size) { return a; }; print(f());   //= 3

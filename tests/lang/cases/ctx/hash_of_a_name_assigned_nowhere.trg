@@ -1,0 +1,1 @@
+f = function() { return #nowhere; };   //! E302@25

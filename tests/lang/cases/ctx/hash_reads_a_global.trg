@@ -1,0 +1,1 @@
+radius = 2; f = function() { return #radius; }; print(f());   //= 2

@@ -1,0 +1,1 @@
+f = function() { #x = 5; }; f(); print(x);   //= 5

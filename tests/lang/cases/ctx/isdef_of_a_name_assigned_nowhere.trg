@@ -1,0 +1,1 @@
+print(isdef(nowhere));   //! E302@13

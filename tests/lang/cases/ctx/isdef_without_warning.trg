@@ -1,0 +1,3 @@
+print(isdef(u)); u = 1; print(isdef(u));
+//= 0
+//= 1

@@ -1,0 +1,1 @@
+for (i = 0; i < 3; i++) last = i; print(i, last);   //= 3 2

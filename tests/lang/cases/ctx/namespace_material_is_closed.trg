@@ -1,0 +1,1 @@
+material::mine = 1;   //! E311@1

@@ -1,0 +1,1 @@
+x = material::glod();   //! E302@5: material::gold

@@ -1,0 +1,1 @@
+f = function() { return material::gold(); }; print(f());   //= material gold

@@ -1,0 +1,1 @@
+f = function(a) { return function() { return a; }; };   //! E303@46

@@ -1,0 +1,1 @@
+x = mth::sin(u); if (0) u = 1;   //! E507@5: no value

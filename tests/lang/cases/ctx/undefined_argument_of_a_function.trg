@@ -1,0 +1,1 @@
+f = function(x) { return isdef(x); }; print(f(u)); if (0) u = 1;   //= 0

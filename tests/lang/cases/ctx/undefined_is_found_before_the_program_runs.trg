@@ -1,0 +1,2 @@
+print("never");
+x = nowhere;   //! E302@5

@@ -1,0 +1,2 @@
+x = function() { return 1 / 0; }();   //! E401@25
+//< function@1:5

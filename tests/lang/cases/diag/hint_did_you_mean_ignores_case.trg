@@ -1,0 +1,1 @@
+Radius = 1; x = radius;   //! E302@17: Radius

@@ -1,0 +1,3 @@
+include("a.trg"); print(x);   //= 1
+//@ file a.trg
+x = 1;

@@ -1,0 +1,3 @@
+include("lib\\a.trg"); print(x);   //= 1
+//@ file lib/a.trg
+x = 1;

@@ -1,0 +1,3 @@
+include("a.trg"); include("./A.TRG");
+//@ file a.trg
+print("once");   //= once

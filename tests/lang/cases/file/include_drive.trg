@@ -1,0 +1,1 @@
+include("C:/a.trg");   //! E510@9

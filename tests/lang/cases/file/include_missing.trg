@@ -1,0 +1,1 @@
+include("nowhere.trg");   //! E511@9: nowhere.trg

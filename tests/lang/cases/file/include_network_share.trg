@@ -1,0 +1,1 @@
+include("\\\\server\\share\\a.trg");   //! E510@9

@@ -1,0 +1,2 @@
+include("a.trg");   //! E512@9
+//@ bytes a.trg ff fe 00

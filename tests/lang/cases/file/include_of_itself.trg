@@ -1,0 +1,3 @@
+include("main.trg");   //! E320@9: main.trg
+//@ file other.trg
+x = 1;

@@ -1,0 +1,1 @@
+include("stl\\rt\\trg_raytrace.trg"); print("ok");   //= ok

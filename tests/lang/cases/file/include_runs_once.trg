@@ -1,0 +1,3 @@
+include("a.trg"); include("a.trg");
+//@ file a.trg
+print("once");   //= once

@@ -1,0 +1,1 @@
+include("http://example.org/a.trg");   //! E510@9

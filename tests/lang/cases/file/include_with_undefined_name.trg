@@ -1,0 +1,3 @@
+include("a.trg");
+//@ file a.trg
+x = nowhere;   //! E302@5

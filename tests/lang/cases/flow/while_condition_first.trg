@@ -1,0 +1,1 @@
+while (0) print("never"); print("end");   //= end

@@ -1,0 +1,1 @@
+f = function(o) { o = 5; }; p = 1; f(p); print(p);   //= 1

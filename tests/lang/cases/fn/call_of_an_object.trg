@@ -1,0 +1,1 @@
+o = object(); o();   //! E430@15: object

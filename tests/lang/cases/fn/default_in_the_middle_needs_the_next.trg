@@ -1,0 +1,2 @@
+f = function(a = 1, b) { return a + b; };   //! E432@21: 'b'
+f();

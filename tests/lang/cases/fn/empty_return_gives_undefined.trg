@@ -1,0 +1,1 @@
+f = function() { return; }; print(isdef(f()));   //= 0

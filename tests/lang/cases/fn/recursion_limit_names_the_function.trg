@@ -1,0 +1,2 @@
+deep = function() { #deep(); };   //! E607@8: 'deep' are nested too deeply (limit 200)
+deep();

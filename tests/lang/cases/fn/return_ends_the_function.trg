@@ -1,0 +1,1 @@
+f = function() { return 1; print("never"); }; print(f());   //= 1

@@ -1,0 +1,1 @@
+f = function() { while (1) { for (;;) { switch (1) { case 1: return "out"; } } } }; print(f());   //= out

@@ -1,0 +1,1 @@
+self = 5; print(self);   //= 5

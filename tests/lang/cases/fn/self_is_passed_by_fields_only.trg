@@ -1,0 +1,1 @@
+f = function(self) { return self; }; print(f(5));   //= 5

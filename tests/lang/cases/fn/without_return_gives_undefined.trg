@@ -1,0 +1,1 @@
+f = function() { x = 1; }; print(isdef(f()));   //= 0

@@ -1,0 +1,2 @@
+//@ frames 12
+Scene = scene(); while (1) { Scene.Render(); }

@@ -1,0 +1,3 @@
+//@ frames 1
+Scene = scene(); Scene.Render();
+x = 1 / 0;   //! E401@5

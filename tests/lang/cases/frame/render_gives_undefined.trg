@@ -1,0 +1,1 @@
+Scene = scene(); print(isdef(Scene.Render()));   //= 0

@@ -1,0 +1,1 @@
+e = enviroment(0.5); print(e);   //= enviroment(0.5, 1)

@@ -1,0 +1,1 @@
+s = sphere(vec3(0));   //! E506@5: sphere(

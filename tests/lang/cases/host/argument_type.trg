@@ -1,0 +1,1 @@
+s = sphere(1, 2);   //! E501@5: argument 1

@@ -1,0 +1,1 @@
+a = material::gold(); b = material::gold(); print(a == b);   //= 0

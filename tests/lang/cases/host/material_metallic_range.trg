@@ -1,0 +1,1 @@
+m = material::gold().Metallic(2);   //! E504@5: 0 .. 1

@@ -1,0 +1,1 @@
+m = material::unobtainium();   //! E302@5

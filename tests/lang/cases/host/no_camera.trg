@@ -1,0 +1,2 @@
+Scene = scene(); Scene.Render();
+//& camera = None

@@ -1,0 +1,1 @@
+x = mth::normalize(vec3(0));   //! E508@5

@@ -1,0 +1,1 @@
+a = object(); b = object(); print(a == a, a == b, a != b);   //= 1 0 1

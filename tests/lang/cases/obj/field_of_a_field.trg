@@ -1,0 +1,1 @@
+o = object(); o.p = object(); o.p.x = 4; print(o.p.x);   //= 4

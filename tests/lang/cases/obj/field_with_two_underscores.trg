@@ -1,0 +1,1 @@
+o = object(); x = o.__class__;   //! E421@19

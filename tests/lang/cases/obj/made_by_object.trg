@@ -1,0 +1,1 @@
+o = object(); print(typeof(o), o);   //= object object()

@@ -1,0 +1,1 @@
+f = function() { p.x = 1; return p; }; print(f().x);   //= 1

@@ -1,0 +1,1 @@
+v = object(); v.operator+ = 5; x = v + 1;   //! E416@36

@@ -1,0 +1,1 @@
+x = 5; x.operator+ = function(a, b) { };   //! E420@8

@@ -1,0 +1,1 @@
+v = object(); v.operator+ = function(a, b) { return "sum"; }; print(v + 1);   //= sum

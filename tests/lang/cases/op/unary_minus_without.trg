@@ -1,0 +1,1 @@
+v = object(); x = -v;   //! E413@19: object

@@ -1,0 +1,2 @@
+v = object(); v.operator+ = function(a) { };
+x = v + 1;   //! E433@5

@@ -1,0 +1,2 @@
+//@ let ARGUMENTS = "1, " * 254
+print(mth::max(${ARGUMENTS}2));   //= 2

@@ -1,0 +1,1 @@
+while (0) { f = function() { break; }; }   //! E216@30

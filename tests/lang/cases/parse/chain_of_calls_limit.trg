@@ -1,0 +1,2 @@
+//@ let CALLS = "()" * 101
+f = function() { return #f; }; x = f${CALLS};   //! E222@239: 100

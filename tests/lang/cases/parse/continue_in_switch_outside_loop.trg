@@ -1,0 +1,1 @@
+switch (2) { default: continue; }   //! E217@23

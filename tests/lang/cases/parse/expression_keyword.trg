@@ -1,0 +1,1 @@
+x = if;   //! E205@5: keyword

@@ -1,0 +1,1 @@
+print(function(a) { return a * 2; }(21));   //= 42

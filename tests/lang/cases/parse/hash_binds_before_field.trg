@@ -1,0 +1,1 @@
+p.x = 4; f = function() { return #p.x; }; print(f());   //= 4

@@ -1,0 +1,1 @@
+f = function() { include("a.trg"); };   //! E214@18

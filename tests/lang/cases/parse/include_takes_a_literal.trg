@@ -1,0 +1,1 @@
+n = "a.trg"; include(n);   //! E215@22

@@ -1,0 +1,1 @@
+i = 0; while (i < 2) i++; print(i);   //= 2

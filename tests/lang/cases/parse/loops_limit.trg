@@ -1,0 +1,2 @@
+//@ let LOOPS = "while (1) " * 9
+${LOOPS} x = 1;   //! E225@81: 8

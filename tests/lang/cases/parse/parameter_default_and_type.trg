@@ -1,0 +1,1 @@
+f = function(a = 2 ~ "num", b ~ "num" = 1) { };   //! E201@38

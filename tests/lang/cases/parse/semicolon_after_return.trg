@@ -1,0 +1,1 @@
+f = function() { return 1 };     //! E201@26

@@ -1,0 +1,1 @@
+f = function(a ~ num) { };   //! E209@18: "num"

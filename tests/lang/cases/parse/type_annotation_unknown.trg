@@ -1,0 +1,1 @@
+f = function(a ~ "nunber") { };   //! E304@18: num

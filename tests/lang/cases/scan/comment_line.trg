@@ -1,0 +1,2 @@
+print("shown"); // print("hidden");
+//= shown

@@ -1,0 +1,1 @@
+f = function(case) { };   //! E204@14: 'case'

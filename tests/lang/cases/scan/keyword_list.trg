@@ -1,0 +1,12 @@
+//@ let N = ""
+a.if = 1;         //! E204@3
+a.else = 1;       //! E204@3
+a.while = 1;      //! E204@3
+a.for = 1;        //! E204@3
+a.switch = 1;     //! E204@3
+a.case = 1;       //! E204@3
+a.default = 1;    //! E204@3
+a.break = 1;      //! E204@3
+a.continue = 1;   //! E204@3
+a.return = 1;     //! E204@3
+a.function = 1;   //! E204@3

@@ -1,0 +1,1 @@
+Scene = 1; scene_ = 2; print(Scene + scene_);   //= 3

@@ -1,0 +1,2 @@
+//@ let CYRILLIC = "\u0430"
+a = 1; ${CYRILLIC} = 2; print(a);   //= 1

@@ -1,0 +1,5 @@
+//@ newline crlf
+print(1);
+print("two");
+//= 1
+//= two

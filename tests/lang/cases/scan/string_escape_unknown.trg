@@ -1,0 +1,1 @@
+m = "BIN\MODELS\cow";   //! E105@9: write \\ or use / //! E105@16

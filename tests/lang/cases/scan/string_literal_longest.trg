@@ -1,0 +1,2 @@
+//@ let LONG = "x" * 65536
+print(len("${LONG}"));   //= 65536

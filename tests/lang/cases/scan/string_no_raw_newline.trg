@@ -1,0 +1,3 @@
+x = "first         //! E104@5: not closed
+last";
+//! E104@2:5

@@ -1,0 +1,1 @@
+x = "open          //! E104@5: not closed

@@ -1,0 +1,1 @@
+x = 'abc';   //! E100@5: double quotes

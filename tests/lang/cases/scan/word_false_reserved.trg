@@ -1,0 +1,1 @@
+x = false;   //! E107@5: write 0

@@ -1,0 +1,1 @@
+a = "x"; b = a; b += "y"; print(a, b);   //= x xy

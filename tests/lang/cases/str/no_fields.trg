@@ -1,0 +1,1 @@
+x = "abc".length;   //! E420@5: length

@@ -1,0 +1,1 @@
+x = 2; for (i = 0; i < 2000; i++) x *= x; print(x);   //= inf

@@ -1,0 +1,5 @@
+f = function(x) { print(x); return x; };
+y = f(1) + f(2) * f(3);
+//= 1
+//= 2
+//= 3

@@ -1,0 +1,1 @@
+x = object() > 1;   //! E412@5: object > num

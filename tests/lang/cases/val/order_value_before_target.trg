@@ -1,0 +1,6 @@
+f = function() { print("value"); return 1; };
+g = function() { print("target"); return #o; };
+o = object();
+g().x = f();
+//= value
+//= target

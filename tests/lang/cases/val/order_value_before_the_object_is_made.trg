@@ -1,0 +1,1 @@
+p.x = isdef(p); print(p.x);   //= 0

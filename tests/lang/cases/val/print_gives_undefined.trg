@@ -1,0 +1,3 @@
+print(isdef(print(1)));
+//= 1
+//= 0

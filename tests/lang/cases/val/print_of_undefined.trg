@@ -1,0 +1,1 @@
+print(u); if (0) u = 1;   //= undef

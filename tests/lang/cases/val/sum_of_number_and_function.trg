@@ -1,0 +1,1 @@
+f = function() { }; x = 1 + f;   //! E410@25: num + function

@@ -1,0 +1,1 @@
+x = object() + object();   //! E410@5: object + object

@@ -1,0 +1,3 @@
+if ("") print("empty"); if ("0") print("zero"); if (" ") print("space");
+//= zero
+//= space

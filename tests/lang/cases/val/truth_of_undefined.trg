@@ -1,0 +1,2 @@
+if (u) print("yes"); else print("no");   //= no
+if (0) u = 1;
