@@ -113,6 +113,14 @@ def closest(name: str, candidates: Iterable[str]) -> str | None:
     return found[0] if found else None
 
 
+def is_certain(name: str, guess: str, candidates: Iterable[str]) -> bool:
+    """Whether no other candidate comes near `name`, so that a tool may replace it by `guess`."""
+    near = get_close_matches(
+        name, [c for c in candidates if abs(len(c) - len(name)) <= 2][:1000], n=2, cutoff=0.7
+    )
+    return all(found == guess for found in near)
+
+
 def render_diagnostic(diagnostic: Diagnostic, sources: Mapping[str, SourceFile]) -> str:
     """The diagnostic as lines of text: the place, the source line with carets, the hint, the calls."""
     d = diagnostic

@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from . import ast
-from .diagnostics import DiagnosticBag, Notice, closest
+from .diagnostics import DiagnosticBag, Notice, closest, is_certain
 from .source import Span
 
 TYPE_NAMES = (
@@ -191,16 +191,14 @@ class _Resolver:
             return
         written = ("#" if path.hashed else "") + guess
         hint_values = {"name": guess}
-        fix = (path.span, written)
+        written = ("#" if path.hashed else "") + guess
+        fix = (path.span, written) if is_certain(path.name, guess, candidates) else None
         self.bag.add(Notice("E302", path.span, values, "did_you_mean", hint_values, (), fix))
 
     def _check_parameters(self, info: FunctionInfo) -> None:
         for parameter in info.node.parameters:
             if parameter.type_name is not None and parameter.type_name not in TYPE_NAMES:
-                guess = closest(parameter.type_name, TYPE_NAMES) or "num"
-                values = {"name": parameter.type_name}
-                span = parameter.type_span or parameter.span
-                self.bag.add(Notice("E304", span, values, "did_you_mean", {"name": guess}))
+                self._unknown_type(parameter.type_name, parameter.type_span or parameter.span)
         for name, span in info.locals.items():
             if name in self.result.builtins:
                 self.bag.add(Notice("L802", span, {"name": name}), "lint")
@@ -219,6 +217,12 @@ class _LintWalk:
         for node in _walk_statements(statements):
             if isinstance(node, ast.If):
                 for condition, _ in node.branches:
+    def _unknown_type(self, name: str, span: Span) -> None:
+        guess = closest(name, TYPE_NAMES)
+        certain = guess is not None and is_certain(name, guess, TYPE_NAMES)
+        fix = (span, f'"{guess}"') if certain else None
+        self.bag.add(Notice("E304", span, {"name": name}, "did_you_mean", {"name": guess or "num"}, (), fix))
+
                     self._condition(condition)
             elif isinstance(node, ast.While | ast.For) and node.condition is not None:
                 self._condition(node.condition)

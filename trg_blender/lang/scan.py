@@ -98,7 +98,8 @@ class _Scanner:
         if not (name[0].isalpha() or name[0] == "_"):  # a sign such as a raised 2 is a \\w, but no letter
             self._error("E100", start, start + 1, text=text[0])
         if name in RESERVED_WORDS:
-            self._error("E107", start, end, RESERVED_WORDS[name], name=name)
+            fix = (start, end, "1" if name == "true" else "0")
+            self._error("E107", start, end, RESERVED_WORDS[name], fix, name=name)
         self.tokens.append(Token(kind, name, name, self._span(start, end)))
 
     def _take_number(self, text: str, start: int, end: int) -> int:
@@ -123,7 +124,8 @@ class _Scanner:
             for found in _ESCAPE.finditer(body):
                 if found.group(1) not in ESCAPES:
                     at = start + 1 + found.start()
-                    self._error("E105", at, at + 2, "double_backslash", text=found.group())
+                    fix = (at, at + 2, "\\" + found.group())
+                    self._error("E105", at, at + 2, "double_backslash", fix, text=found.group())
             body = _ESCAPE.sub(lambda m: ESCAPES.get(m.group(1), m.group()), body)
         if len(body) > MAX_STRING_LENGTH:
             self._error("E108", start, end, None, limit=MAX_STRING_LENGTH)
@@ -142,7 +144,8 @@ class _Scanner:
         if character == "'":
             end = _QUOTED.match(text, start).end()  # type: ignore[union-attr]
         shown = character if character.isprintable() else f"U+{ord(character):04X}"
-        self._error("E100", start, start + 1, _CHARACTER_HINTS.get(character), text=shown)
+        fix = _fix_of(text[start:end], start)
+        self._error("E100", start, start + 1, _CHARACTER_HINTS.get(character), fix, text=shown)
         return end
 
     def _count_lines(self, start: int, end: int) -> None:
@@ -155,8 +158,22 @@ class _Scanner:
         first = start - self.line_start + 1
         return Span(self.source.name, self.line, first, self.line, first + end - start)
 
-    def _error(self, code: str, start: int, end: int, hint: str | None = None, **values: object) -> None:
-        self.bag.add(Notice(code, self._span(start, end), values, hint))
+    def _error(
+        self, code: str, start: int, end: int, hint: str | None = None,
+        fix: tuple[int, int, str] | None = None, **values: object,
+    ) -> None:  # fmt: skip
+        """Report an error; `fix` says what to put in place of which characters."""
+        repair = None if fix is None else (self._span(fix[0], fix[1]), fix[2])
+        self.bag.add(Notice(code, self._span(start, end), values, hint, fix=repair))
+
+
+def _fix_of(text: str, start: int) -> tuple[int, int, str] | None:
+    """What `text`, which is no token, was meant to be, if that is certain."""
+    if text in ("&", "|"):
+        return start, start + 1, text * 2
+    if len(text) > 1 and text[-1] == "'" and not set(text) & {'"', "\\"}:
+        return start, start + len(text), f'"{text[1:-1]}"'
+    return None
 
 
 def scan_source(source: SourceFile, bag: DiagnosticBag) -> list[Token]:
