@@ -81,7 +81,7 @@ def test_output(fact, run) -> None:
 
 ERRORS = {
     "single quotes are reserved": ("x = 'a';", "E100", "1:5"),
-    "brackets are reserved": ("x = a[1];", "E100", "1:6"),
+    "in is a keyword": ("in = 1;", "E205", "1:1"),
     "true is reserved": ("x = true;", "E107", "1:5"),
     "a keyword is no field": ("a.if = 1;", "E204", "1:3"),
     "a comment must end": ("/* x", "E106", "1:1"),

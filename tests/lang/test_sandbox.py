@@ -36,7 +36,7 @@ FIELDS = [
 HOLDERS = {
     "num": "1", "str": '"a"', "vec3": "vec3(1)", "object": "object()", "function": "function() { }",
     "builtin": "mth::sin", "scene": "scene()", "shape": "sphere(vec3(0), 1)", "method": "scene().Add",
-    "material": "material::gold()", "medium": "enviroment(0, 1)", "light": "dir_light(vec3(1), vec3(1))",
+    "list": "[1]", "material": "material::gold()", "medium": "enviroment(0, 1)", "light": "dir_light(vec3(1), vec3(1))",
 }  # fmt: skip
 
 
@@ -64,7 +64,7 @@ def test_every_builtin_refuses_strange_arguments(name, run) -> None:
 def test_every_method_refuses_strange_arguments(kind, name, run) -> None:
     makers = {
         "scene": "scene()", "shape": "sphere(vec3(0), 1)", "material": "material::gold()",
-        "light": "dir_light(vec3(1), vec3(1))",
+        "light": "dir_light(vec3(1), vec3(1))", "list": "[1, 2]",
     }  # fmt: skip
     for value in ("1", '"a"', "object()", "vec3(0)", "print", "-1", "1e308 * 10", "sphere(vec3(0), 1)"):
         for count in range(7):

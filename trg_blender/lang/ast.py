@@ -75,7 +75,7 @@ class Assign:
 
     span: Span
     op: str
-    target: Path | Field
+    target: Target
     value: Expr
     depth: int
 
@@ -87,7 +87,7 @@ class Step:
     span: Span
     op: str
     prefix: bool
-    target: Path | Field
+    target: Target
     depth: int
 
 
@@ -106,6 +106,35 @@ class Field:
     span: Span
     object: Expr
     name: str
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class Index:
+    """`object[index]`."""
+
+    span: Span
+    object: Expr
+    index: Expr
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class ListOf:
+    """`[a, b]`."""
+
+    span: Span
+    elements: tuple[Expr, ...]
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class Each:
+    """`target in subject`, the head of a loop over a list; it stands nowhere else."""
+
+    span: Span
+    target: Path
+    subject: Expr
     depth: int
 
 
@@ -171,6 +200,15 @@ class For:
 
 
 @dataclass(frozen=True, slots=True)
+class ForEach:
+    """`for (x in list)`. `span` is the keyword."""
+
+    span: Span
+    head: Each
+    body: Statement
+
+
+@dataclass(frozen=True, slots=True)
 class Case:
     """`value` is None for `default`."""
 
@@ -209,8 +247,15 @@ class Return:
     value: Expr | None
 
 
-Expr = Number | String | Path | Unary | Binary | Logic | Assign | Step | Call | Field | Function
-Statement = ExprStatement | Block | If | While | For | Switch | Include | Break | Continue | Return
+Target = Path | Field | Index
+"""What can be assigned to."""
+Expr = (
+    Number | String | Path | Unary | Binary | Logic | Assign | Step | Call | Field | Index | ListOf
+    | Each | Function
+)  # fmt: skip
+Statement = (
+    ExprStatement | Block | If | While | For | ForEach | Switch | Include | Break | Continue | Return
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,6 +282,12 @@ def child_expressions(node: Expr) -> tuple[Expr, ...]:
             return (node.callee, *node.arguments)
         case Field():
             return (node.object,)
+        case Index():
+            return (node.object, node.index)
+        case ListOf():
+            return node.elements
+        case Each():
+            return (node.target, node.subject)
     return ()
 
 
@@ -256,6 +307,8 @@ def parts_of(node: Statement) -> tuple[tuple[Expr, ...], tuple[Statement, ...]]:
         case For():
             heads = (node.init, node.condition, node.step)
             return tuple(e for e in heads if e is not None), (node.body,)
+        case ForEach():
+            return (node.head,), (node.body,)
         case Switch():
             values = tuple(case.value for case in node.cases if case.value is not None)
             return (node.subject, *values), tuple(s for case in node.cases for s in case.body)

@@ -11,6 +11,8 @@ MAX_DEPTH = 200
 MAX_CHAIN = 400
 MAX_LINKS = 100
 MAX_ARGUMENTS = 255
+MAX_ELEMENTS = 1000
+"""Elements of one list literal; longer lists are appended to."""
 
 
 class SyntaxStop(Exception):

@@ -32,7 +32,7 @@ from .resolve import FunctionInfo
 from .source import Span
 
 TICK_WEIGHT = 300
-_EXACT_TYPES = frozenset(("num", "str", "vec3", "object"))
+_EXACT_TYPES = frozenset(("num", "str", "vec3", "list", "object"))
 _CONTINUE = -1
 
 
@@ -78,6 +78,8 @@ class StatementEmitter:
                 return self._loop(self._guarded(node.condition, node.body, span), span)
             case ast.For():
                 return self._for(node)
+            case ast.ForEach():
+                return self._for_each(node)
             case ast.Switch():
                 return self._switch(node)
             case ast.Break():
@@ -117,15 +119,19 @@ class StatementEmitter:
             return [self._augment(target, node.op[0], value, span)]
         if isinstance(target, ast.Path):
             return [assign(store(emit.variable(target), target.span), value, span)]
+        if isinstance(target, ast.Index):
+            return [assign(self._target(target), value, span)]
         return self._assign_field(target, value, span)
 
-    def _augment(self, target: ast.Path | ast.Field, op: str, value: py.expr, span: Span) -> py.stmt:
+    def _augment(self, target: ast.Target, op: str, value: py.expr, span: Span) -> py.stmt:
         return at(py.AugAssign(self._target(target), OPERATORS[op](), value), span)
 
-    def _target(self, target: ast.Path | ast.Field) -> py.Name | py.Attribute:
+    def _target(self, target: ast.Target) -> py.Name | py.Attribute | py.Subscript:
         emit = self.expressions
         if isinstance(target, ast.Path):
             return store(emit.variable(target), target.span)
+        if isinstance(target, ast.Index):
+            return emit.element(target, py.Store())
         emit.site(target, ".=", (target.object,), by_field=True)
         return attribute(emit.value(target.object), target.name, target.span, py.Store())
 
@@ -187,6 +193,28 @@ class StatementEmitter:
         made.append(assign(store(flag, span), constant(0, span), span))
         return made + self._loop([first, *body], span)
 
+    def _for_each(self, node: ast.ForEach) -> list[py.stmt]:
+        """Elements come from an iterator over the living list, with one step of the budget each."""
+        emit, span, head = self.expressions, node.span, node.head
+        emit.site(head, "in", (head.subject,))
+        name = emit.variable(head.target)
+        items = call("I_", [emit.value(head.subject)], head.span)
+        self._around.append(None)
+        body = self.block((node.body,))
+        self._around.pop()
+        if not emit.suspends:
+            paced = call("C_", [items, load("K_", span)], span)
+            return [at(py.For(store(name, span), paced, body, []), span)]
+        walk, found = emit.temporary(), emit.temporary()
+        ended = compare(load(found, span), py.Is(), load("A_", span), span)
+        taken = call("Q_", [load(walk, span), load("A_", span)], span)
+        first = [
+            assign(store(found, span), taken, span),
+            when(ended, [at(py.Break(), span)], span),
+            assign(store(name, span), load(found, span), span),
+        ]
+        return [assign(store(walk, span), items, span), *self._loop([*first, *body], span)]
+
     def _continue(self, span: Span) -> list[py.stmt]:
         switch = self._around[-1]
         if switch is None:
@@ -241,7 +269,7 @@ def _continues(body: ast.Statement) -> bool:
         node = todo.pop()
         if isinstance(node, ast.Continue):
             return True
-        if not isinstance(node, ast.While | ast.For):
+        if not isinstance(node, ast.While | ast.For | ast.ForEach):
             todo.extend(ast.parts_of(node)[1])
     return False
 
@@ -250,7 +278,7 @@ def _global_names(expressions: list[ast.Expr], context: FunctionInfo | None) -> 
     """The globals that a context assigns to, as Python names."""
     names: dict[str, None] = {}
     for node in expressions:
-        if not isinstance(node, ast.Assign | ast.Step):
+        if not isinstance(node, ast.Assign | ast.Step | ast.Each):
             continue
         target: ast.Expr = node.target
         if isinstance(target, ast.Field):

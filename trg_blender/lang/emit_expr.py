@@ -19,6 +19,7 @@ from .pytree import (
     call,
     compare,
     constant,
+    element,
     load,
     named,
     one_or_zero,
@@ -104,9 +105,21 @@ class ExpressionEmitter:
             case ast.Field():
                 self.site(node, ".", (node.object,), by_field=True)
                 return attribute(self.value(node.object), node.name, node.span, py.Load())
+            case ast.Index():
+                return self.element(node, py.Load())
+            case ast.ListOf():
+                elements = at(py.Tuple([self.value(e) for e in node.elements], py.Load()), node.span)
+                return call("H_", [elements], node.span)
+            case ast.Each():
+                raise AssertionError("the head of a loop is no value")
             case ast.Function():
                 index = self.parts.resolution.functions[id(node)].index
                 return call("F_", [load(f"f_{index}", node.span)], node.span)
+
+    def element(self, node: ast.Index, context: py.expr_context) -> py.Subscript:
+        """`object[index]`, to be read or assigned to."""
+        self.site(node, "[]", (node.object, node.index))
+        return element(self.value(node.object), self.value(node.index), node.span, context)
 
     def condition(self, node: ast.Expr) -> py.expr:
         """The expression where only its truth counts."""
@@ -180,12 +193,50 @@ class ExpressionEmitter:
             if node.op != "=":
                 value = binary(load(name, target.span), node.op[0], value, span)
             return named(name, value, span)
+        if isinstance(target, ast.Index):
+            return self._assign_element(target, node)
         self.site(target, ".=", (target.object,), by_field=True)
         if node.op == "=":
             holder = self.holder(target.object)
             arguments = [holder, constant("T_" + target.name, span), self.value(node.value)]
             return call("E_", arguments, target.span)
         return self._change_field(target, node.op[0], lambda: self.value(node.value), span)
+
+    def _assign_element(self, target: ast.Index, node: ast.Assign) -> py.expr:
+        """As the statement does it: a plain assignment computes its right side first."""
+        self.site(target, "[]", (target.object, target.index))
+        if node.op == "=":
+            parts = [self.value(node.value), self.value(target.object), self.value(target.index)]
+            return call("J_", parts, target.span)
+        held, place = self.temporary(), self.temporary()
+        read = self._held_element(target, held, place)
+        new = binary(read, node.op[0], self.value(node.value), node.span)
+        return call("J_", [new, load(held, node.span), load(place, node.span)], target.span)
+
+    def _held_element(self, target: ast.Index, held: str, place: str) -> py.expr:
+        """An element, its list and index kept in variables for writing it back."""
+        span = target.span
+        holder = named(held, self.value(target.object), span)
+        return element(holder, named(place, self.value(target.index), span), span, py.Load())
+
+    def _step_element(self, node: ast.Step, target: ast.Index, by: py.expr) -> py.expr:
+        span, target_span = node.span, target.span
+        self.site(target, "[]", (target.object, target.index))
+        held, place, old = self.temporary(), self.temporary(), self.temporary()
+        read = self._held_element(target, held, place)
+        if node.prefix:
+            new = binary(read, "-", by, span)
+            return call("J_", [new, load(held, span), load(place, span)], target_span)
+        first = named(old, call("Z_", [read], span), span)
+        new = binary(load(old, span), "-", by, span)
+        second = call("J_", [new, load(held, span), load(place, span)], target_span)
+        return self._first_of(first, second, span)
+
+    @staticmethod
+    def _first_of(first: py.expr, second: py.expr, span: Span) -> py.expr:
+        """Both are computed; the value is the first."""
+        pair = at(py.Tuple([first, second], py.Load()), span)
+        return at(py.Subscript(pair, constant(0, span), py.Load()), span)
 
     def holder(self, node: ast.Expr) -> py.expr:
         """The object of a field that is assigned to; a variable without a value becomes one."""
@@ -218,8 +269,9 @@ class ExpressionEmitter:
             old = self.temporary()
             first = named(old, call("Z_", [load(name, target.span)], span), span)
             second = named(name, binary(load(old, span), "-", by, span), span)
-            pair = at(py.Tuple([first, second], py.Load()), span)
-            return at(py.Subscript(pair, constant(0, span), py.Load()), span)
+            return self._first_of(first, second, span)
+        if isinstance(target, ast.Index):
+            return self._step_element(node, target, by)
         self.site(target, ".=", (target.object,), by_field=True)
         if node.prefix:
             return self._change_field(target, "-", lambda: by, span)

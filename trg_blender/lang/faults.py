@@ -19,6 +19,8 @@ _UNARY = re.compile(r"bad operand type for unary (\S): '(\w+)'")
 _NOT_CALLABLE = re.compile(r"'(\w+)' object is not callable")
 _NO_ATTRIBUTE = re.compile(r"'(\w+)' object (?:has no attribute|attribute) 'T_([^']*)'")
 _MISSING = re.compile(r"f_(\d+)\(\) missing \d+ required positional arguments?: '([^']+)'")
+_NO_ELEMENTS = re.compile(r"'(\w+)' object (?:is not subscriptable|does not support item assignment)")
+_TUPLE_INDEX = "tuple indices must be"
 _TOO_MANY = re.compile(r"f_(\d+)\(\) takes .* but (\d+) (?:was|were) given")
 _KINDS = {
     "float": "num",
@@ -50,7 +52,9 @@ class FaultReader:
         places = self._places(error.__traceback__)
         site = places[-1][1] if places else Site(self.rt.program.start)
         told = self._explain(error, site)
-        span = told.span or site.span
+        span = site.span
+        if told.operand is not None and told.operand < len(site.operands):
+            span = site.operands[told.operand]
         related: tuple[tuple[Span, str], ...] = ()
         if told.argument is not None and told.argument + 1 < len(site.operands):
             related = ((site.operands[told.argument + 1], "argument_here"),)
@@ -136,6 +140,11 @@ class FaultReader:
             return TrgError("E413", op=match[1], kind=_kind(match[2]))
         if match := _NOT_CALLABLE.search(text):
             return self._not_callable(_kind(match[1]), site)
+        if match := _NO_ELEMENTS.search(text):
+            kind = _kind(match[1])
+            return TrgError("E415") if kind == "generator" else TrgError("E440", kind=kind)
+        if text.startswith(_TUPLE_INDEX):
+            return TrgError("E440", kind="vec3")
         if match := _MISSING.search(text):
             info = self.rt.program.functions[int(match[1])]
             return TrgError("E432", name=info.name, parameter=match[2].removeprefix("l_"))

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from itertools import compress
 from types import FunctionType, GeneratorType
 
 from .bind import HOST
 from .limits import MAX_CALL_DEPTH
+from .lists import List
 from .runtime import Runtime
 from .values import Obj, Str, TrgError, Undef, trg_frame, type_name
 from .vector import Vec3
@@ -31,12 +34,13 @@ class Helpers:
         made.update((f"g_{name}", rt.undef) for name in rt.program.global_names)
         made.update(HOST.bind(rt))
         made.update((name, rt.text(text)) for text, name in rt.program.strings.items())
-        made.update(t_num=float, t_str=Str, t_vec3=Vec3, t_object=Obj)
+        made.update(t_num=float, t_str=Str, t_vec3=Vec3, t_list=List, t_object=Obj)
         made.update(
             u_=rt.undef, A_=_ABSENT, P_=PAUSE, G_=GeneratorType, Y_=type, K_=rt.ticks(), S_=iter(()),
             B_=self.set_after, E_=self.set_field, D_=self.is_defined, F_=self.function, L_=rt.compare,
             M_=self.method, N_=rt.logical_not, O_=rt.new_object, R_=self.missing, W_=self.check_type,
-            X_=self.too_deep, Z_=self.counted,
+            X_=self.too_deep, Z_=self.counted, C_=compress, H_=self.new_list, I_=self.elements,
+            J_=self.set_element, Q_=next,
         )  # fmt: skip
         return made
 
@@ -49,6 +53,21 @@ class Helpers:
         """`holder.name++` as an expression: its value is the old one."""
         setattr(holder, name, new)
         return old
+
+    def new_list(self, elements: tuple[object, ...]) -> List:
+        """`[a, b]`."""
+        return List(self.rt, list(elements))
+
+    def set_element(self, value: object, holder: object, index: object) -> object:
+        """`holder[index] = value` as an expression."""
+        holder[index] = value  # type: ignore[index]
+        return value
+
+    def elements(self, subject: object) -> Iterator[object]:
+        """What `for (x in subject)` goes over: the list as it is at every turn."""
+        if type(subject) is not List:
+            raise TrgError("E444", operand=0, kind=type_name(subject))
+        return iter(subject.items)
 
     def is_defined(self, holder: object, name: str) -> float:
         """`isdef(holder.name)`."""

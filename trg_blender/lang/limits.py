@@ -29,6 +29,8 @@ class Limits:
     """Growth of the process while the program runs, shapes and lights not counted."""
     max_shapes: int = 1_000_000
     """Shapes and lights made in one run."""
+    max_elements: int = 1_000_000
+    """Elements of all living lists together."""
     output_lines_frame: int = 200
     output_lines: int = 10_000
     output_columns: int = 4_096

@@ -68,6 +68,10 @@ MESSAGES: dict[str, tuple[str, str]] = {
         "too many cases in one switch (limit {limit})",
         "слишком много case в одном switch (предел {limit})",
     ),
+    "E227": (
+        "too many elements in one list (limit {limit})",
+        "слишком много элементов в одном списке (предел {limit})",
+    ),
     "E301": ("'{name}' is not a variable of this function", "'{name}' - не переменная этой функции"),
     "E302": ("'{name}' is not defined", "имя '{name}' не определено"),
     "E303": ("'{name}' is not defined in this function", "имя '{name}' не определено в этой функции"),
@@ -112,6 +116,18 @@ MESSAGES: dict[str, tuple[str, str]] = {
         "parameter '{name}' must be {wanted}, not {kind}",
         "параметр '{name}' должен быть {wanted}, а не {kind}",
     ),
+    "E440": ("{kind} has no elements", "у {kind} нет элементов"),
+    "E441": (
+        "an index must be a whole number of at least 0, not {value}",
+        "индекс должен быть целым числом не меньше 0, а не {value}",
+    ),
+    "E442": (
+        "index {index} is outside of the list: it has {count} elements",
+        "индекс {index} вне списка: в нём элементов - {count}",
+    ),
+    "E443": ("an index must be a number, not {kind}", "индекс должен быть числом, а не {kind}"),
+    "E444": ("'for ... in' goes over a list, not {kind}", "'for ... in' перебирает список, а не {kind}"),
+    "E445": ("the list is empty", "список пуст"),
     "E501": (
         "{name} expects {wanted} as argument {index} ('{parameter}'), not {kind}",
         "{name}: аргумент {index} ('{parameter}') должен быть {wanted}, а не {kind}",
@@ -175,6 +191,10 @@ MESSAGES: dict[str, tuple[str, str]] = {
         "the computer has no memory left for the program",
         "у компьютера не осталось памяти для программы",
     ),
+    "E612": (
+        "the lists of the program hold more than {limit} elements",
+        "в списках программы больше {limit} элементов",
+    ),
     "E900": (
         "internal error in TRG: {kind}; please report it",
         "внутренняя ошибка TRG: {kind}; сообщите о ней",
@@ -194,6 +214,12 @@ MESSAGES: dict[str, tuple[str, str]] = {
 }
 
 HINTS: dict[str, tuple[str, str]] = {
+    "append": ("append(value) adds an element", "append(значение) добавляет элемент"),
+    "from_the_end": (
+        "count from the end with l[len(l) - 1]",
+        "с конца считают так: l[len(l) - 1]",
+    ),
+    "round_index": ("write mth::floor(i)", "пишите mth::floor(i)"),
     "assignable": ("write name = ... or object.field = ...", "пишите имя = ... или объект.поле = ..."),
     "choose_other_name": ("choose another name", "выберите другое имя"),
     "choose_other_space": (

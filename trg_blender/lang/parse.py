@@ -146,11 +146,13 @@ class Parser:
         self.around.pop()
         return ast.While(start, condition, body)
 
-    def _for(self) -> ast.For:
+    def _for(self) -> ast.For | ast.ForEach:
         cursor = self.cursor
         start = cursor.next().span
         self._inside("loop", start)
         cursor.expect("(")
+        if self._sees_each():
+            return self._for_each(start)
         init = None if cursor.sees(";") else self.expressions.parse()
         cursor.expect(";")
         condition = None if cursor.sees(";") else self.expressions.parse()
@@ -160,6 +162,24 @@ class Parser:
         body = self.statement()
         self.around.pop()
         return ast.For(start, init, condition, step, body)
+
+    def _sees_each(self) -> bool:
+        """Whether a path and `in` come next."""
+        tokens, at = self.cursor.tokens, self.cursor.at
+        while tokens[at].kind == "name" or tokens[at].text in ("#", "::"):
+            at += 1
+        return tokens[at].text == "in" and tokens[at].kind == "keyword" and at > self.cursor.at
+
+    def _for_each(self, start: Span) -> ast.ForEach:
+        cursor = self.cursor
+        target = self.expressions.path()
+        cursor.expect("in")
+        subject = self.expressions.parse()
+        cursor.expect(")")
+        body = self.statement()
+        self.around.pop()
+        depth = cursor.depth_above(subject.depth)
+        return ast.ForEach(start, ast.Each(target.span.to(subject.span), target, subject, depth), body)
 
     def _switch(self) -> ast.Switch:
         cursor = self.cursor

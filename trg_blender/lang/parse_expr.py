@@ -6,7 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from . import ast
-from .cursor import MAX_ARGUMENTS, MAX_CHAIN, MAX_LINKS, Cursor
+from .cursor import MAX_ARGUMENTS, MAX_CHAIN, MAX_ELEMENTS, MAX_LINKS, Cursor
 from .scan import Token
 from .source import Span
 
@@ -48,13 +48,13 @@ class ExpressionParser:
         target = self._target(left)
         op = self.cursor.next().text
         value = self.parse()
-        if isinstance(value, ast.Function) and op == "=":
+        if isinstance(value, ast.Function) and op == "=" and not isinstance(target, ast.Index):
             value = replace(value, name=target.name)
         depth = self.cursor.depth_above(target.depth, value.depth)
         return ast.Assign(left.span.to(value.span), op, target, value, depth)
 
-    def _target(self, node: ast.Expr) -> ast.Path | ast.Field:
-        if isinstance(node, ast.Path | ast.Field):
+    def _target(self, node: ast.Expr) -> ast.Target:
+        if isinstance(node, ast.Target):
             return node
         raise self.cursor.error("E206", node.span, "assignable")
 
@@ -103,6 +103,8 @@ class ExpressionParser:
                 node = self._call(node)
             elif text == ".":
                 node = self._field(node)
+            elif text == "[":
+                node = self._index(node)
             elif text in ("++", "--"):
                 op = cursor.next()
                 span, depth = node.span.to(op.span), cursor.depth_above(node.depth)
@@ -114,16 +116,38 @@ class ExpressionParser:
                 raise cursor.error("E222", cursor.token.span, "split_expression", limit=MAX_LINKS)
         return node
 
-    def _call(self, callee: ast.Expr) -> ast.Call:
+    def _values(self, closing: str, code: str, limit: int) -> list[ast.Expr]:
+        """Expressions with commas between them, up to `closing`; `code` when there are too many."""
         cursor = self.cursor
         cursor.next()
-        arguments: list[ast.Expr] = []
-        while not cursor.sees(")"):
-            if arguments:
-                cursor.expect(",") if cursor.sees(",") else cursor.expect(")")
-            if len(arguments) == MAX_ARGUMENTS:
-                raise cursor.error("E223", cursor.token.span, limit=MAX_ARGUMENTS)
-            arguments.append(self.parse())
+        values: list[ast.Expr] = []
+        while not cursor.sees(closing):
+            if values:
+                cursor.expect(",") if cursor.sees(",") else cursor.expect(closing)
+            if len(values) == limit:
+                raise cursor.error(code, cursor.token.span, limit=limit)
+            values.append(self.parse())
+        return values
+
+    def _index(self, node: ast.Expr) -> ast.Index:
+        cursor = self.cursor
+        cursor.next()
+        index = self.parse()
+        end = cursor.expect("]")
+        depth = cursor.depth_above(node.depth, index.depth)
+        return ast.Index(node.span.to(end.span), node, index, depth)
+
+    def _list(self) -> ast.ListOf:
+        cursor = self.cursor
+        start = cursor.token.span
+        elements = self._values("]", "E227", MAX_ELEMENTS)
+        end = cursor.next()
+        depth = cursor.depth_above(0, *(e.depth for e in elements))
+        return ast.ListOf(start.to(end.span), tuple(elements), depth)
+
+    def _call(self, callee: ast.Expr) -> ast.Call:
+        cursor = self.cursor
+        arguments = self._values(")", "E223", MAX_ARGUMENTS)
         end = cursor.next()
         depth = cursor.depth_above(callee.depth, *(a.depth for a in arguments))
         return ast.Call(callee.span.to(end.span), callee, tuple(arguments), depth)
@@ -162,19 +186,22 @@ class ExpressionParser:
             cursor.next()
             return ast.String(token.span, str(token.value))
         if token.kind == "name" or cursor.sees("#"):
-            return self._path()
+            return self.path()
         if cursor.sees("("):
             cursor.next()
             node = self.parse()
             end = cursor.expect(")")
             return replace(node, span=token.span.to(end.span))
+        if cursor.sees("["):
+            return self._list()
         if cursor.sees("function"):
             return self._function()
         if cursor.sees(")") and cursor.at > cursor.statement_start:
             raise cursor.error("E205", token.span, text=token.text)
         raise cursor.error("E205", token.span, "reserved_word" if token.kind == "keyword" else None)
 
-    def _path(self) -> ast.Path:
+    def path(self) -> ast.Path:
+        """`name`, `#name` or `space::name`."""
         cursor = self.cursor
         start = cursor.token.span
         hashed = cursor.accept("#")

@@ -74,6 +74,11 @@ def attribute(value: py.expr, name: str, span: Span, context: py.expr_context) -
     return at(py.Attribute(value, "T_" + name, context), span)
 
 
+def element(value: py.expr, index: py.expr, span: Span, context: py.expr_context) -> py.Subscript:
+    """An element of a list. Lists and all other values of the language refuse what is no element."""
+    return at(py.Subscript(value, index, context), span)
+
+
 def assign(target: py.expr, value: py.expr, span: Span) -> py.Assign:
     return at(py.Assign([target], value), span)
 

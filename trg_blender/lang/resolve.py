@@ -14,7 +14,7 @@ from .diagnostics import DiagnosticBag, Notice, closest, is_certain
 from .source import Span
 
 TYPE_NAMES = (
-    "num", "str", "vec3", "object", "function", "undef",
+    "num", "str", "vec3", "list", "object", "function", "undef",
     "scene", "shape", "light", "material", "texture", "medium",
 )  # fmt: skip
 HOST_SPACES = frozenset(("std", "mth", "material", "stl"))
@@ -92,7 +92,7 @@ class _Resolver:
         for node in expressions:
             if isinstance(node, ast.Function):
                 self._collect_function(node, file, context)
-            elif isinstance(node, ast.Assign | ast.Step):
+            elif isinstance(node, ast.Assign | ast.Step | ast.Each):
                 self._collect_target(node.target, file, context)
                 if isinstance(node.target, ast.Field):
                     self._note_overload(node.target)

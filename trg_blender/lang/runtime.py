@@ -56,6 +56,7 @@ class Runtime:
         self.globals: dict[str, object] = {}
         self.undef = Undef(self)
         self.live_text = 0
+        self.live_elements = 0
         self.frame = 0
         self.modes = RenderModes()
         self._made_at: dict[tuple[Site | None, str], tuple[str, Iterator[int]]] = {}
@@ -90,7 +91,7 @@ class Runtime:
             raise TrgError("E601", "raise_limit", limit=self.limits.max_steps)
         self._slice = min(SLICE, left)
         self._steps += self._slice
-        return repeat(None, self._slice)
+        return repeat(True, self._slice)
 
     def check_limits(self) -> None:
         """Raise TrgError when time or memory is used up or the host has cancelled."""

@@ -10,8 +10,8 @@ from typing import NamedTuple
 from .diagnostics import DiagnosticBag, Notice
 from .source import SourceFile, Span
 
-KEYWORDS = frozenset("if else while for switch case default break continue return function operator".split())
-RESERVED_WORDS = {"in": "reserved", "true": "write_1", "false": "write_0"}
+KEYWORDS = frozenset("if else while for in switch case default break continue return function operator".split())
+RESERVED_WORDS = {"true": "write_1", "false": "write_0"}
 MAX_NUMBER_LENGTH = 64
 MAX_STRING_LENGTH = 65_536
 ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "0": "\0", '"': '"', "\\": "\\"}
@@ -26,7 +26,7 @@ _TOKEN = re.compile(
   | (?P<number>(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)
   | (?P<string>"[^"\\\n]*(?:\\.[^"\\\n]*)*")
   | (?P<name>[^\W\d][\w\u0300-\u036f]*)
-  | (?P<op>\+\+|--|[-+*/%=!<>]=|&&|\|\||::|[-+*/%=!<>\#~(){},;.:])
+  | (?P<op>\+\+|--|[-+*/%=!<>]=|&&|\|\||::|[-+*/%=!<>\#~(){}\[\],;.:])
     """,
     re.VERBOSE,
 )
@@ -38,8 +38,6 @@ _CHARACTER_HINTS = {
     "&": "write_and",
     "|": "write_or",
     "?": "no_conditional",
-    "[": "reserved",
-    "]": "reserved",
     "@": "reserved",
     "$": "reserved",
     "^": "write_pow",

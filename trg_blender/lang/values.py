@@ -36,15 +36,16 @@ COMPARISON: Mapping[str, Callable[..., object]] = {
 
 
 class TrgError(Exception):
-    """An error of the running program; the place is read off the traceback, or is `span`."""
+    """An error of the running program. It stands at the place that the traceback tells, or at an
+    operand of what runs there."""
 
     def __init__(
-        self, code: str, /, hint: str | None = None, span: Span | None = None, **values: object
+        self, code: str, /, hint: str | None = None, operand: int | None = None, **values: object
     ) -> None:
         super().__init__(code)
         self.code = code
         self.hint = hint
-        self.span = span
+        self.operand = operand
         self.values = values
         self.argument: int | None = None
 
@@ -84,6 +85,12 @@ class Value:
 
     def __rmod__(self, other: object) -> object:
         return compute("%", other, self)
+
+    def __getitem__(self, index: object) -> object:
+        raise TrgError("E440", kind=self.kind)
+
+    def __setitem__(self, index: object, value: object) -> None:
+        raise TrgError("E440", kind=self.kind)
 
     def __neg__(self) -> object:
         return negate(self)

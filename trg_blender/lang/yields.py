@@ -14,9 +14,7 @@ SUSPENDING_METHOD = "Render"
 
 
 def _last_name(node: ast.Expr) -> str | None:
-    if isinstance(node, ast.Path | ast.Field):
-        return node.name
-    return None
+    return node.name if isinstance(node, ast.Path | ast.Field) else None
 
 
 class YieldAnalysis:
@@ -71,11 +69,11 @@ class YieldAnalysis:
                     named.add(id(node.target))
                     value = node.value
                     is_statement = id(node) in self.resolution.statement_values
-                    named_here = is_statement and not self._is_operator(node.target)
-                    if isinstance(value, ast.Function) and named_here:
+                    name = self._lends_name(node.target) if is_statement else None
+                    if isinstance(value, ast.Function) and name is not None:
                         named.add(id(value))
                         if functions[id(value)].yields:
-                            self.names.add(node.target.name)
+                            self.names.add(name)
                 elif isinstance(node, ast.Call):
                     named.add(id(node.callee))
             for node in expressions:
@@ -88,5 +86,7 @@ class YieldAnalysis:
                     self.escaped = not builtin
 
     @staticmethod
-    def _is_operator(target: ast.Path | ast.Field) -> bool:
-        return isinstance(target, ast.Field) and target.name.startswith("operator")
+    def _lends_name(target: ast.Target) -> str | None:
+        """The name by which a function assigned to `target` is called; operators and elements have none."""
+        is_operator = isinstance(target, ast.Field) and target.name.startswith("operator")
+        return None if is_operator else _last_name(target)

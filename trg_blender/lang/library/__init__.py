@@ -2,4 +2,4 @@
 
 from __future__ import annotations
 
-from . import core, lights, material, mth, scene_methods, shapes, std  # noqa: F401
+from . import core, lights, lists, material, mth, scene_methods, shapes, std  # noqa: F401

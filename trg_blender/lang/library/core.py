@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from ..bind import HOST
+from ..lists import List
 from ..runtime import Runtime
 from ..values import Obj, TrgError, Undef, format_value, type_name
 from ..vector import Vec3
@@ -51,8 +52,10 @@ def _object(rt: Runtime) -> object:
     return rt.new_object()
 
 
-@HOST.function("copy", "value: any", "A copy of an object's fields; other values as they are.", "any")
+@HOST.function("copy", "value: any", "A copy of a list or an object, one level deep; else the value.", "any")
 def _copy(rt: Runtime, value: object) -> object:
+    if type(value) is List:
+        return List(rt, value.items.copy())
     if type(value) is not Obj:
         return value
     made = rt.new_object()
@@ -61,6 +64,15 @@ def _copy(rt: Runtime, value: object) -> object:
     return made
 
 
-@HOST.function("len", "text: str", "The number of characters of a string.", "num")
+def _list_length(*arguments: object) -> object:
+    if len(arguments) == 1 and type(arguments[0]) is List:
+        return float(len(arguments[0].items))
+    return None
+
+
+@HOST.function(
+    "len", "value: str|list", "The number of characters of a string or of elements of a list.", "num",
+    fast=_list_length,
+)  # fmt: skip
 def _len(rt: Runtime, text: str) -> object:
     return float(len(text))

@@ -79,6 +79,7 @@ def _limits(rt: Runtime) -> object:
     rt.write_line(f"depth of calls: {MAX_CALL_DEPTH}, of operators: {MAX_OPERATOR_DEPTH}")
     rt.write_line(f"characters of a string: {limits.max_string}")
     rt.write_line(f"megabytes of all strings: {limits.max_text_bytes // 1048576}")
+    rt.write_line(f"elements of all lists: {limits.max_elements}")
     rt.write_line(f"memory blocks: {limits.max_blocks}")
     rt.write_line(f"shapes and lights: {limits.max_shapes}")
     rt.write_line(f"lines of output: {limits.output_lines_frame} in a frame, {limits.output_lines}")
