@@ -203,6 +203,12 @@ class _Resolver:
             if name in self.result.builtins:
                 self.bag.add(Notice("L802", span, {"name": name}), "lint")
 
+    def _unknown_type(self, name: str, span: Span) -> None:
+        guess = closest(name, TYPE_NAMES)
+        certain = guess is not None and is_certain(name, guess, TYPE_NAMES)
+        fix = (span, f'"{guess}"') if certain else None
+        self.bag.add(Notice("E304", span, {"name": name}, "did_you_mean", {"name": guess or "num"}, (), fix))
+
     def _error(self, code: str, span: Span, hint: str | None = None, **values: object) -> None:
         self.bag.add(Notice(code, span, values, hint))
 
@@ -217,12 +223,6 @@ class _LintWalk:
         for node in _walk_statements(statements):
             if isinstance(node, ast.If):
                 for condition, _ in node.branches:
-    def _unknown_type(self, name: str, span: Span) -> None:
-        guess = closest(name, TYPE_NAMES)
-        certain = guess is not None and is_certain(name, guess, TYPE_NAMES)
-        fix = (span, f'"{guess}"') if certain else None
-        self.bag.add(Notice("E304", span, {"name": name}, "did_you_mean", {"name": guess or "num"}, (), fix))
-
                     self._condition(condition)
             elif isinstance(node, ast.While | ast.For) and node.condition is not None:
                 self._condition(node.condition)
