@@ -10,7 +10,7 @@
  *                            do so with every part and return g; the axis runs through (0, 0, 0)
  *   g.Copy()                 another group; its shapes share the meshes of these
  *   g.AddTo(Scene)           puts every part into the scene and returns g
- *   g.count                  the number of parts
+ *   g.parts                  the list of its shapes
  *
  * Use:
  *
@@ -29,8 +29,7 @@
 group::make = function()
 {
     made = object();
-    made.count = 0;
-    made.first = 0;
+    made.parts = [];
     made.Put = group::put;
     made.Move = group::move;
     made.Rotate = group::rotate;
@@ -41,56 +40,51 @@ group::make = function()
     return made;
 };
 
-/* The parts are a chain: each link holds a part and the link before it. */
 group::put = function(self ~ "object", part ~ "shape")
 {
-    link = object();
-    link.part = part;
-    link.next = self.first;
-    self.first = link;
-    self.count++;
+    self.parts.append(part);
     return part;
 };
 
 group::move = function(self ~ "object", by ~ "vec3")
 {
-    for (link = self.first; link; link = link.next)
-        link.part.Move(by);
+    for (part in self.parts)
+        part.Move(by);
     return self;
 };
 
 group::rotate = function(self ~ "object", axis ~ "vec3", degrees ~ "num")
 {
-    for (link = self.first; link; link = link.next)
-        link.part.Rotate(axis, degrees);
+    for (part in self.parts)
+        part.Rotate(axis, degrees);
     return self;
 };
 
 group::scale = function(self ~ "object", by)
 {
-    for (link = self.first; link; link = link.next)
-        link.part.Scale(by);
+    for (part in self.parts)
+        part.Scale(by);
     return self;
 };
 
 group::material = function(self ~ "object", mtl ~ "material")
 {
-    for (link = self.first; link; link = link.next)
-        link.part.Material(mtl);
+    for (part in self.parts)
+        part.Material(mtl);
     return self;
 };
 
 group::copy = function(self ~ "object")
 {
     made = group::make();
-    for (link = self.first; link; link = link.next)
-        made.Put(link.part.Copy());
+    for (part in self.parts)
+        made.Put(part.Copy());
     return made;
 };
 
 group::add_to = function(self ~ "object", Scene ~ "scene")
 {
-    for (link = self.first; link; link = link.next)
-        Scene.Add(link.part);
+    for (part in self.parts)
+        Scene.Add(part);
     return self;
 };

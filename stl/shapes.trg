@@ -6,7 +6,7 @@
  * the head of each file.
  *
  *   shapes::fence(radius, height, count, panel, post)       a ring of panels between posts
- *   shapes::stairs(steps, width, rise, run, mtl)            a straight flight along +Z
+ *   shapes::stairs(steps, width, rise, run, mtl)            a straight flight along -Z
  *   shapes::spiral_stairs(steps, radius, rise, degrees, mtl)    round a column, with a rail
  *   shapes::gear(teeth, module, thickness, mtl, hub)        a spur gear; its axis is Y
  *   shapes::spring(turns, radius, height, wire, mtl)        a helix round Y

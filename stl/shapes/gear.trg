@@ -9,6 +9,9 @@
  *       module       pitch diameter / teeth: how large one tooth is
  *       mtl, hub     materials of the wheel, and of its hub and bolts
  *   shapes::pitch_radius(teeth, module)      where the gears of a pair touch
+ *   shapes::meshed(teeth1, turn1, teeth2, heading = 0)
+ *       how many degrees to turn the second gear about Y so that it fits the first, which is turned by
+ *       turn1; heading is the direction to the second: 0 is +X, 90 is -Z
  *   A gear is a group (stl/group.trg). A tooth is centred on +X.
  *
  * Use:
@@ -17,7 +20,8 @@
  *   Scene = scene();
  *   large = shapes::gear(24, 0.2);
  *   large.AddTo(Scene);
- *   small = shapes::gear(12, 0.2, 0.4, material::copper()).Rotate(vec3(0, 1, 0), 180 / 12);
+ *   small = shapes::gear(12, 0.2, 0.4, material::copper());
+ *   small.Rotate(vec3(0, 1, 0), shapes::meshed(24, 0, 12));
  *   small.Move(vec3(0.2 * (24 + 12) / 2, 0, 0)).AddTo(Scene);
  *   Scene.Background(vec3(0.8, 0.85, 0.9));
  *   Scene.Add(dir_light(vec3(-3, 6, 4), vec3(1, 1, 1)));
@@ -29,6 +33,13 @@ include("stl/group.trg");
 shapes::pitch_radius = function(teeth ~ "num", module ~ "num")
 {
     return teeth * module / 2;
+};
+
+/* Counted in teeth from the line between the axes, the two phases make a tooth on a gap: half a tooth. */
+shapes::meshed = function(teeth1 ~ "num", turn1 ~ "num", teeth2 ~ "num", heading = 0 ~ "num")
+{
+    phase = (heading - turn1) * teeth1 / 360;
+    return heading + 180 - (0.5 - phase) * 360 / teeth2;
 };
 
 shapes::gear = function(teeth = 16 ~ "num", module = 0.25 ~ "num", thickness = 0.4 ~ "num",
@@ -47,8 +58,8 @@ shapes::gear = function(teeth = 16 ~ "num", module = 0.25 ~ "num", thickness = 0
     tooth = shapes::gear_tooth(pitch, module, thickness, mtl);
     for (k = 0; k < teeth; k++)
     {
-        for (link = tooth.first; link; link = link.next)
-            whole.Put(link.part.Copy().Rotate(vec3(0, 1, 0), 360 / teeth * k));
+        for (part in tooth.parts)
+            whole.Put(part.Copy().Rotate(vec3(0, 1, 0), 360 / teeth * k));
     }
     return whole;
 };

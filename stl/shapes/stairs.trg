@@ -5,7 +5,7 @@
  * step lies at steps * rise.
  *
  *   shapes::stairs(steps = 10, width = 1.5, rise = 0.18, run = 0.28, mtl)
- *       climbs along +Z from z = 0, as wide along X; rise and run are of one step
+ *       climbs along -Z from z = 0, as wide along X; rise and run are of one step
  *   shapes::spiral_stairs(steps = 16, radius = 1.5, rise = 0.2, degrees = 22.5, mtl)
  *       climbs round Y, from +X towards -Z; degrees is the turn from one step to the next
  *
@@ -13,7 +13,7 @@
  *
  *   include("stl/shapes/stairs.trg");
  *   Scene = scene();
- *   shapes::stairs(12, 2).Move(vec3(-3, 0, -1)).AddTo(Scene);
+ *   shapes::stairs(12, 2).Rotate(vec3(0, 1, 0), -30).Move(vec3(-2, 0, 2)).AddTo(Scene);
  *   shapes::spiral_stairs(18, 1.4, 0.18, 20, material::copper()).Move(vec3(1.5, 0, 0)).AddTo(Scene);
  *   Scene.Add(plane(vec3(0, 1, 0), 0, material::white_rubber()));
  *   Scene.Add(dir_light(vec3(-3, 6, 4), vec3(1, 1, 1)));
@@ -28,7 +28,7 @@ shapes::stairs = function(steps = 10 ~ "num", width = 1.5 ~ "num", rise = 0.18 ~
 {
     whole = group::make();
     for (k = 0; k < steps; k++)
-        whole.Put(box(vec3(-width / 2, 0, k * run), vec3(width / 2, (k + 1) * rise, (k + 1) * run), mtl));
+        whole.Put(box(vec3(-width / 2, 0, -k * run), vec3(width / 2, (k + 1) * rise, -(k + 1) * run), mtl));
     return whole;
 };
 

@@ -5,7 +5,7 @@
  *
  *   shapes::brick_wall(length = 4, height = 2, brick = vec3(0.24, 0.07, 0.115), colour, seed = 1)
  *       length, height   along X and Y; the height is rounded to whole rows
- *       brick            length, height and depth of one brick; joints are 0.15 of its height
+ *       brick            length, height and depth of one brick; joints are a fifth of its height
  *       colour           linear RGB
  *       seed             chooses the shades
  *   Returns a group (stl/group.trg), centred on x = 0, z = 0, standing on y = 0.
@@ -29,13 +29,13 @@ shapes::brick_wall = function(length = 4 ~ "num", height = 2 ~ "num",
                               brick = vec3(0.24, 0.07, 0.115) ~ "vec3",
                               colour = vec3(0.42, 0.11, 0.06) ~ "vec3", seed = 1 ~ "num")
 {
-    joint = brick.y * 0.15;
+    joint = brick.y * 0.2;
     pitch = brick.x + joint;
     rows = mth::max(1, mth::floor(height / (brick.y + joint) + 0.5));
     whole = group::make();
     mortar = box(vec3(-length / 2, 0, -brick.z * 0.42) + vec3(joint, 0, 0),
                  vec3(length / 2, rows * (brick.y + joint), brick.z * 0.42) - vec3(joint, joint, 0),
-                 material::pbr(vec3(0.45, 0.43, 0.4), 0, 0.1));
+                 material::pbr(vec3(0.6, 0.57, 0.52), 0, 0.1));
     whole.Put(mortar);
 
     dice = random::make(seed);
@@ -49,7 +49,7 @@ shapes::brick_wall = function(length = 4 ~ "num", height = 2 ~ "num",
         {
             from = mth::max(left + k * pitch, -length / 2);
             to = mth::min(left + k * pitch + brick.x, length / 2);
-            mtl = shapes::brick_shade(shades, dice.Next());
+            mtl = shades[mth::floor(dice.Next(0, 5))];
             if (to - from > joint)
             {
                 piece = cube.Copy().Scale(vec3(to - from, brick.y, brick.z)).Material(mtl);
@@ -63,23 +63,8 @@ shapes::brick_wall = function(length = 4 ~ "num", height = 2 ~ "num",
 /* Five materials from dark to light. */
 shapes::brick_shades = function(colour ~ "vec3")
 {
-    shades.a = material::pbr(colour * 0.6, 0, 0.2);
-    shades.b = material::pbr(colour * 0.75, 0, 0.2);
-    shades.c = material::pbr(colour * 0.9, 0, 0.2);
-    shades.d = material::pbr(colour * 1.05, 0, 0.2);
-    shades.e = material::pbr(colour * 1.2, 0, 0.2);
+    shades = [];
+    for (k = 0; k < 5; k++)
+        shades.append(material::pbr(colour * (0.6 + 0.15 * k), 0, 0.2));
     return shades;
-};
-
-/* The shade for a number in 0..1. */
-shapes::brick_shade = function(shades ~ "object", t ~ "num")
-{
-    switch (mth::floor(t * 5))
-    {
-        case 0: return shades.a;
-        case 1: return shades.b;
-        case 2: return shades.c;
-        case 3: return shades.d;
-    }
-    return shades.e;
 };
