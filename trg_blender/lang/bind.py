@@ -18,11 +18,12 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from .invoke import function_invoker, method_invoker
 from .values import Str, TrgError, Value, type_name
 from .vector import Vec3
 
 if TYPE_CHECKING:
-    from .runtime import Runtime
+    from .runtime import Place, Runtime
 
 LARGEST = 1.7976931348623157e308
 _PARAMETER = re.compile(
@@ -61,6 +62,8 @@ class Builtin:
     owner: str | None = None
     fast: Callable[..., object] | None = None
     """Does the work for arguments that need no check; None for all others."""
+    placed: bool = False
+    """`run` takes the place of the call instead of `rt`: what it makes is numbered there."""
 
     @property
     def rest(self) -> HostParameter | None:
@@ -150,6 +153,19 @@ class HostTable:
 
         return declare
 
+    def maker(
+        self, name: str, signature: str, doc: str, result: str
+    ) -> Callable[[Callable[..., object]], Callable[..., object]]:
+        """Declare the decorated `run(place, *arguments)` as built-in function `name`."""
+
+        def declare(run: Callable[..., object]) -> Callable[..., object]:
+            self.functions[name] = Builtin(
+                name, signature, parse_signature(signature), result, doc, run, placed=True
+            )
+            return run
+
+        return declare
+
     def pure(
         self, name: str, signature: str, doc: str, compute: Callable[..., object], result: str = "num"
     ) -> None:
@@ -175,12 +191,7 @@ class HostTable:
             )  # fmt: skip
             self.methods[owner.kind, name] = row
 
-            check = make_checker(row)
-
-            def invoke(self: Value, _depth: int, *arguments: object) -> object:
-                return run(self.rt, self, *check(arguments))  # type: ignore[attr-defined]
-
-            setattr(owner, "T_" + name, invoke)
+            setattr(owner, "T_" + name, method_invoker(row, make_checker(row)))
             return run
 
         return declare
@@ -189,6 +200,11 @@ class HostTable:
     def names(self) -> frozenset[str]:
         """Every name that the resolver takes as built in."""
         return frozenset(self.functions) | frozenset(self.constants)
+
+    @property
+    def placed_names(self) -> frozenset[str]:
+        """The functions that number what they make by the place of the call."""
+        return frozenset(row.name for row in self.functions.values() if row.placed)
 
     def method_names(self, kind: str) -> list[str]:
         return [name for owner, name in self.methods if owner == kind]
@@ -209,11 +225,10 @@ HOST = HostTable()
 """The host table. Import `library` to have it filled."""
 
 
-def make_invoker(rt: Runtime, row: Builtin) -> Callable[..., object]:
-    """`row` as a Python function that checks its arguments. One number in, the fast way."""
+def make_invoker(rt: Runtime, row: Builtin, place: Place | None = None) -> Callable[..., object]:
+    """`row` as a Python function that checks its arguments. `place` is where it is called, if known."""
     run, fast = row.run, row.fast
     check = make_checker(row)
-    parameters = row.parameters
     if fast is not None:
 
         def invoke_fast(*arguments: object) -> object:
@@ -221,22 +236,15 @@ def make_invoker(rt: Runtime, row: Builtin) -> Callable[..., object]:
             return made if made is not None else run(rt, *check(arguments))
 
         return invoke_fast
-    if len(parameters) == 1 and parameters[0].types == ("num",) and not parameters[0].open_low:
-        low, high = parameters[0].low, parameters[0].high
+    if not row.placed:
+        return function_invoker(row, rt, check)
+    if place is not None:
+        return function_invoker(row, place, check)
 
-        def invoke_one(*arguments: object) -> object:
-            if len(arguments) == 1:
-                value = arguments[0]
-                if type(value) is float and low <= value <= high:
-                    return run(rt, value)
-            return run(rt, *check(arguments))
+    def invoke_somewhere(*arguments: object) -> object:
+        return run(rt.place(row.name), *check(arguments))
 
-        return invoke_one
-
-    def invoke(*arguments: object) -> object:
-        return run(rt, *check(arguments))
-
-    return invoke
+    return invoke_somewhere
 
 
 def make_checker(row: Builtin) -> Callable[[tuple[object, ...]], Iterable[object]]:

@@ -19,7 +19,7 @@ ALLOWED_NODES: frozenset[type] = frozenset(
         py.And, py.Or, py.Eq, py.NotEq, py.Lt, py.LtE, py.Gt, py.GtE, py.Is, py.IsNot,
     }
 )  # fmt: skip
-_NAME = re.compile(r"[glb]_.+|[fmc]_[0-9]+|[tkn][0-9]+_|[A-Z]_|[ud]_|t_(?:num|str|vec3|list|object)?|_")
+_NAME = re.compile(r"[glb]_.+|[fmcp]_[0-9]+|[tkn][0-9]+_|[A-Z]_|[ud]_|t_(?:num|str|vec3|list|object)?|_")
 _HELPER = re.compile(r"[A-Z]_")
 
 

@@ -1,8 +1,8 @@
 """Translation of statements, functions and files to a Python syntax tree.
 
-A loop runs over an iterator that counts the budget. In code that may suspend (files, and functions
-that reach Render) the loop runs over slices `S_` and hands control back between them; elsewhere
-over `K_`, which raises at a limit and never ends.
+A loop runs over `S_`, an iterator over a slice of the budget's steps. When it is used up, code that
+may suspend (files, and functions that reach Render) hands control back to the session; other code
+calls `T_`, which puts the next slice in its place or raises at a limit.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import ast as py
 
 from . import ast
 from .emit_expr import ExpressionEmitter, ProgramParts, step_amount
-from .limits import MAX_CALL_DEPTH
 from .pytree import (
     OPERATORS,
     assign,
@@ -20,9 +19,9 @@ from .pytree import (
     call,
     compare,
     constant,
+    count_steps,
     forever,
     load,
-    loop_over,
     statement,
     store,
     tick,
@@ -32,6 +31,7 @@ from .resolve import FunctionInfo
 from .source import Span
 
 TICK_WEIGHT = 300
+_GUARD_WEIGHT = 8
 _EXACT_TYPES = frozenset(("num", "str", "vec3", "list", "object"))
 _CONTINUE = -1
 
@@ -171,10 +171,9 @@ class StatementEmitter:
         return made
 
     def _loop(self, body: list[py.stmt], span: Span) -> list[py.stmt]:
-        if not self.expressions.suspends:
-            return [loop_over("K_", body, [], span)]
-        pause = statement(at(py.Yield(load("P_", span)), span), span)
-        inner = loop_over("S_", body, [pause, at(py.Continue(), span)], span)
+        suspend: py.expr = at(py.Yield(load("P_", span)), span)
+        refill = suspend if self.expressions.suspends else call("T_", [], span)
+        inner = count_steps(body, [statement(refill, span), at(py.Continue(), span)], span)
         return [forever([inner, at(py.Break(), span)], span)]
 
     def _for(self, node: ast.For) -> list[py.stmt]:
@@ -275,7 +274,7 @@ def _continues(body: ast.Statement) -> bool:
 
 
 def _global_names(expressions: list[ast.Expr], context: FunctionInfo | None) -> list[str]:
-    """The globals that a context assigns to, as Python names."""
+    """The globals that a context assigns to."""
     names: dict[str, None] = {}
     for node in expressions:
         if not isinstance(node, ast.Assign | ast.Step | ast.Each):
@@ -284,7 +283,7 @@ def _global_names(expressions: list[ast.Expr], context: FunctionInfo | None) -> 
         if isinstance(target, ast.Field):
             target = target.object
         if isinstance(target, ast.Path) and (context is None or target.is_global):
-            names["g_" + target.name] = None
+            names[target.name] = None
     return list(names)
 
 
@@ -301,7 +300,7 @@ def _define(name: str, parameters: list[str], required: int, body: list[py.stmt]
 
 
 class FunctionEmitter:
-    """Translates one function to a definition `f_<index>(d_, l_...)`; `d_` is the call depth."""
+    """Translates one function to a definition `f_<index>(d_, l_...)`; `d_` holds the calls left."""
 
     def __init__(self, parts: ProgramParts, info: FunctionInfo) -> None:
         self.info = info
@@ -312,8 +311,10 @@ class FunctionEmitter:
         info = self.info
         span = info.node.span
         parameters = info.node.parameters
-        body = _declare(_global_names(info.expressions, info), span)
-        body += [tick(span), self._check_depth(span)]
+        body = _declare(["g_" + name for name in _global_names(info.expressions, info)], span)
+        statements = info.node.body.statements
+        guarded = self._begins_with_guard()
+        body += [self._descend(span)] if guarded else [self._descend(span), tick(span)]
         own = {p.name for p in parameters}
         body += [
             assign(store("l_" + name, span), load("u_", span), span)
@@ -324,17 +325,39 @@ class FunctionEmitter:
         required = defaults.index(True) if True in defaults else len(parameters)
         for index, parameter in enumerate(parameters):
             body += self._parameter(parameter, index >= required)
-        body += self.statements.block(info.node.body.statements)
+        if guarded:
+            body += [*self.statements.block(statements[:1]), tick(span)]
+        body += self.statements.block(statements[1:] if guarded else statements)
         body.append(at(py.Return(load("u_", span)), span))
         if info.yields:
             body.append(statement(at(py.Yield(load("P_", span)), span), span))
         return _define(f"f_{info.index}", ["l_" + p.name for p in parameters], required, body)
 
+    def _begins_with_guard(self) -> bool:
+        """Whether the body begins with an `if (...) return ...;` that cannot call anything.
+
+        What it ends is counted by the caller's step: the leaves of a recursion cost nothing more.
+        """
+        node = self.info.node
+        first = node.body.statements[0] if node.body.statements else None
+        if not isinstance(first, ast.If) or self.parts.resolution.overloads:
+            return False
+        body = first.branches[0][1]
+        inside = ast.walk_context((first,))
+        return (
+            isinstance(body, ast.Return)
+            and first.otherwise is None
+            and len(first.branches) == 1
+            and len(inside) <= _GUARD_WEIGHT
+            and all(isinstance(e, ast.Path | ast.Number | ast.Binary) for e in inside)
+            and all(p.default is None for p in node.parameters)
+        )
+
     @staticmethod
-    def _check_depth(span: Span) -> py.stmt:
-        limit = constant(MAX_CALL_DEPTH, span)
-        test = compare(load("d_", span), py.Gt(), limit, span)
-        return when(test, [statement(call("X_", [], span), span)], span)
+    def _descend(span: Span) -> py.stmt:
+        """One call deeper: see runtime.CALL_LEVELS."""
+        inner = at(py.Subscript(load("d_", span), constant(0, span), py.Load()), span)
+        return assign(store("d_", span), inner, span)
 
     def _parameter(self, parameter: ast.Parameter, may_lack: bool) -> list[py.stmt]:
         """Fill in the default, then check the type."""
@@ -369,7 +392,11 @@ def emit_file(parts: ProgramParts, tree: ast.FileTree, index: int, includes: dic
     body: list[py.stmt] = [FunctionEmitter(parts, info).define() for info in functions]
     statements = StatementEmitter(parts, None)
     statements.includes = includes
-    main = _declare(_global_names(parts.resolution.top[tree.name], None), _NOWHERE)
+    assigned = _global_names(parts.resolution.top[tree.name], None)
+    own = [name for name in assigned if name in parts.resolution.file_variables]
+    shared = [name for name in assigned if name not in parts.resolution.file_variables]
+    main = _declare(["g_" + name for name in shared], _NOWHERE)
+    main += [assign(store("l_" + name, _NOWHERE), load("u_", _NOWHERE), _NOWHERE) for name in own]
     main.append(statement(at(py.Yield(load("P_", _NOWHERE)), _NOWHERE), _NOWHERE))
     main += statements.block(tree.statements)
     body.append(_define(f"m_{index}", [], 0, main))

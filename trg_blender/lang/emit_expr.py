@@ -1,8 +1,8 @@
 """Translation of expressions to Python's.
 
 Names of the translated code: `g_x` a global or a built-in as a value, `l_x` a local, `b_x` a
-built-in that is called directly, `f_0` a function, `m_0` a file, `c_0` a string, `t1_` a
-temporary; capital and underscore (`K_`) a helper of the session (see `run.helpers`).
+built-in that is called directly, `p_0` one that makes things there, `f_0` a function, `m_0` a file,
+`c_0` a string, `t1_` a temporary; capital and underscore (`K_`) a helper of the session (see `run.helpers`).
 """
 
 from __future__ import annotations
@@ -33,13 +33,21 @@ from .yields import YieldAnalysis
 class ProgramParts:
     """What all files of a program share while they are translated."""
 
-    def __init__(self, resolution: Resolution, analysis: YieldAnalysis) -> None:
+    def __init__(self, resolution: Resolution, analysis: YieldAnalysis, placed: frozenset[str]) -> None:
+        self.placed = placed
+        self.places: dict[tuple[str, Span], str] = {}
         self.resolution = resolution
         self.analysis = analysis
         self.sites: dict[Span, Site] = {}
         self.strings: dict[str, str] = {}
         self.has_self = any(info.takes_self for info in resolution.functions.values())
         self.compare_overloaded = bool(resolution.overloads & set(COMPARISONS))
+
+    def place_name(self, builtin: str, span: Span) -> str:
+        """The global name of a built-in that is called directly: one of its own where it makes things."""
+        if builtin not in self.placed:
+            return "b_" + builtin
+        return self.places.setdefault((builtin, span), f"p_{len(self.places)}")
 
     def string_name(self, text: str) -> str:
         """The global name of a string constant."""
@@ -75,7 +83,10 @@ class ExpressionEmitter:
 
     def variable(self, path: ast.Path) -> str:
         """The Python name of a variable."""
-        if self.context is not None and not path.is_global and path.name in self.context.locals:
+        if self.context is None:
+            own = path.name in self.parts.resolution.file_variables
+            return ("l_" if own else "g_") + path.name
+        if not path.is_global and path.name in self.context.locals:
             return "l_" + path.name
         return "g_" + path.name
 
@@ -291,9 +302,8 @@ class ExpressionEmitter:
         if isinstance(callee, ast.Path) and self._is_builtin(callee):
             return self._call_builtin(node, callee)
         function = self._method(callee) if isinstance(callee, ast.Field) else self.value(callee)
-        deeper = at(py.BinOp(load("d_", span), py.Add(), constant(1, span)), span)
         arguments = [self.value(a) for a in node.arguments]
-        made: py.expr = at(py.Call(function, [deeper, *arguments], []), span)
+        made: py.expr = at(py.Call(function, [load("d_", span), *arguments], []), span)
         if self.suspends and self.parts.analysis.may_yield(node, self.context):
             made = self._delegate(made, span)
         return made
@@ -302,9 +312,10 @@ class ExpressionEmitter:
         arguments = node.arguments
         if callee.name == "isdef" and len(arguments) == 1 and isinstance(arguments[0], ast.Field):
             tested = arguments[0]
-            name = constant("T_" + tested.name, node.span)
-            return call("D_", [self.value(tested.object), name], node.span)
-        return call("b_" + callee.name, [self.value(a) for a in arguments], node.span)
+            field = constant("T_" + tested.name, node.span)
+            return call("D_", [self.value(tested.object), field], node.span)
+        name = self.parts.place_name(callee.name, node.span)
+        return call(name, [self.value(a) for a in arguments], node.span)
 
     def _method(self, callee: ast.Field) -> py.expr:
         """A function in a field; one whose first parameter is `self` is bound to the object."""

@@ -51,7 +51,7 @@ class FaultReader:
         """The diagnostic of an exception that left the translated code."""
         places = self._places(error.__traceback__)
         site = places[-1][1] if places else Site(self.rt.program.start)
-        told = self._explain(error, site)
+        told = self._too_deep(error, places) or self._explain(error, site)
         span = site.span
         if told.operand is not None and told.operand < len(site.operands):
             span = site.operands[told.operand]
@@ -83,6 +83,18 @@ class FaultReader:
             if name.startswith("f_")
         ]
         return tuple(reversed(calls))
+
+    def _too_deep(self, error: BaseException, places: list[tuple[str, Site]]) -> TrgError | None:
+        """The only subscript in translated functions that can fail is the one that counts calls."""
+        trace = error.__traceback__
+        if not isinstance(error, IndexError) or trace is None or not places:
+            return None
+        while trace.tb_next is not None:
+            trace = trace.tb_next
+        name = places[-1][0]
+        if trace.tb_frame.f_globals is not self.rt.globals or not name.startswith("f_"):
+            return None
+        return TrgError("E607", name=self.rt.program.function_name(name), limit=MAX_CALL_DEPTH)
 
     def _explain(self, error: BaseException, site: Site) -> TrgError:
         """What to say of an exception. `++` is translated to a subtraction: it is named as written."""

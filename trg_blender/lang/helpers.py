@@ -6,10 +6,9 @@ from collections.abc import Iterator
 from itertools import compress
 from types import FunctionType, GeneratorType
 
-from .bind import HOST
-from .limits import MAX_CALL_DEPTH
+from .bind import HOST, make_invoker
 from .lists import List
-from .runtime import Runtime
+from .runtime import Place, Runtime
 from .values import Obj, Str, TrgError, Undef, trg_frame, type_name
 from .vector import Vec3
 
@@ -33,13 +32,15 @@ class Helpers:
         made: dict[str, object] = {"__builtins__": {}}
         made.update((f"g_{name}", rt.undef) for name in rt.program.global_names)
         made.update(HOST.bind(rt))
+        for (builtin, span), name in rt.program.places.items():
+            made[name] = make_invoker(rt, HOST.functions[builtin], Place(rt, builtin, span))
         made.update((name, rt.text(text)) for text, name in rt.program.strings.items())
         made.update(t_num=float, t_str=Str, t_vec3=Vec3, t_list=List, t_object=Obj)
         made.update(
-            u_=rt.undef, A_=_ABSENT, P_=PAUSE, G_=GeneratorType, Y_=type, K_=rt.ticks(), S_=iter(()),
+            u_=rt.undef, A_=_ABSENT, P_=PAUSE, G_=GeneratorType, Y_=type, S_=iter(()), T_=rt.take_step,
             B_=self.set_after, E_=self.set_field, D_=self.is_defined, F_=self.function, L_=rt.compare,
             M_=self.method, N_=rt.logical_not, O_=rt.new_object, R_=self.missing, W_=self.check_type,
-            X_=self.too_deep, Z_=self.counted, C_=compress, H_=self.new_list, I_=self.elements,
+            Z_=self.counted, K_=rt.ticks(), C_=compress, H_=self.new_list, I_=self.elements,
             J_=self.set_element, Q_=next,
         )  # fmt: skip
         return made
@@ -98,9 +99,6 @@ class Helpers:
         kind = type_name(value)
         if kind != wanted:
             raise TrgError("E434", name=parameter, wanted=wanted, kind=kind)
-
-    def too_deep(self) -> None:
-        raise TrgError("E607", name=self._running(), limit=MAX_CALL_DEPTH)
 
     def counted(self, value: object) -> object:
         """The old value of `x++`: a variable without one counts as 0."""

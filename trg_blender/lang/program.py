@@ -50,6 +50,8 @@ class Program:
     sites: dict[Span, Site] = field(repr=False)
     strings: dict[str, str] = field(repr=False)
     """String constants by text: the name under which translated code finds each."""
+    places: dict[tuple[str, Span], str] = field(repr=False)
+    """Calls that make things, by built-in and place: the name under which translated code finds each."""
     global_names: tuple[str, ...] = field(repr=False)
     functions: tuple[FunctionFacts, ...] = field(repr=False)
 
@@ -137,7 +139,7 @@ def _compile(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -> 
         raise ProgramError(without_consequences(bag))
     analysis = YieldAnalysis(resolution)
     analysis.run()
-    parts = ProgramParts(resolution, analysis)
+    parts = ProgramParts(resolution, analysis, HOST.placed_names)
     codes = tuple(_compile_file(parts, loader.trees, n) for n in range(len(loader.trees)))
     return Program(
         main=source.name,
@@ -147,14 +149,13 @@ def _compile(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -> 
         codes=codes,
         sites=parts.sites,
         strings=parts.strings,
+        places=parts.places,
         global_names=tuple(resolution.globals),
         functions=_facts(resolution),
     )
 
 
-def understand(
-    source: SourceFile, resolver: FileResolver, bag: DiagnosticBag
-) -> tuple[Loader, Resolution]:
+def understand(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -> tuple[Loader, Resolution]:
     """Read and resolve a program, its includes too; all errors go to `bag`.
 
     A program with errors of syntax is resolved as far as it was understood.

@@ -91,14 +91,17 @@ def when(test: py.expr, body: list[py.stmt], span: Span) -> py.If:
     return at(py.If(test, body, []), span)
 
 
-def loop_over(name: str, body: list[py.stmt], orelse: list[py.stmt], span: Span) -> py.For:
-    """A loop and its iterator at one place: Python versions differ in which one they report."""
-    return at(py.For(store("_", span), load(name, span), body, orelse), span)
+def count_steps(body: list[py.stmt], orelse: list[py.stmt], span: Span) -> py.For:
+    """A loop over the slice of steps; `orelse` runs when the slice is used up.
+
+    Loop and iterator stand at one place: Python versions differ in which one they report.
+    """
+    return at(py.For(store("_", span), load("S_", span), body, orelse), span)
 
 
 def tick(span: Span) -> py.stmt:
     """One step of the budget."""
-    return loop_over("K_", [at(py.Break(), span)], [], span)
+    return count_steps([at(py.Break(), span)], [statement(call("T_", [], span), span)], span)
 
 
 def forever(body: list[py.stmt], span: Span) -> py.While:

@@ -51,6 +51,8 @@ class Resolution:
     functions: dict[int, FunctionInfo] = field(default_factory=dict)
     """By id() of the function's node."""
     top: dict[str, list[ast.Expr]] = field(default_factory=dict)
+    file_variables: set[str] = field(default_factory=set)
+    """Globals that no function and only one file names: nothing but that file's code can see them."""
     overloads: set[str] = field(default_factory=set)
     statement_values: set[int] = field(default_factory=set)
     """id() of every expression that is a whole statement: its value goes nowhere."""
@@ -84,7 +86,20 @@ class _Resolver:
         for info in list(result.functions.values()):
             self._check(info.expressions, info)
             self._check_parameters(info)
+        result.file_variables = self._find_file_variables()
         return result
+
+    def _find_file_variables(self) -> set[str]:
+        result = self.result
+        places: dict[str, set[str]] = {name: set() for name in result.globals}
+        contexts = [(f"file {name}", nodes) for name, nodes in result.top.items()]
+        contexts += [("function", info.expressions) for info in result.functions.values()]
+        for place, expressions in contexts:
+            for node in expressions:
+                if isinstance(node, ast.Path) and node.name in places:
+                    if place != "function" or node.is_global:
+                        places[node.name].add(place)
+        return {name for name, found in places.items() if len(found) == 1 and "function" not in found}
 
     # Collecting: functions, and what is assigned where.
 
@@ -189,7 +204,6 @@ class _Resolver:
         if guess is None:
             self._error("E302", path.span, **values)
             return
-        written = ("#" if path.hashed else "") + guess
         hint_values = {"name": guess}
         written = ("#" if path.hashed else "") + guess
         fix = (path.span, written) if is_certain(path.name, guess, candidates) else None

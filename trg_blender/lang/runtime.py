@@ -6,7 +6,7 @@ import sys
 import time
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain, count, repeat
+from itertools import chain
 from types import CodeType, FrameType, GeneratorType
 from typing import TYPE_CHECKING
 
@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from .program import Program
 
 SLICE = 10_000
+_STEPS = [True] * SLICE  # an iterator over a list is the quickest that CPython has
 BLOCKS_OF_THING = 16
 BYTES_OF_THING = 1024
 """What a shape or light may take, its records included."""
@@ -39,6 +40,20 @@ class Site:
     operands: tuple[Span, ...] = ()
     names: tuple[str, ...] = ()
     """Names of operands that are plain variables, else ""."""
+
+
+class Place:
+    """A place of the program that makes things of a kind, and how many it has made."""
+
+    __slots__ = ("kind", "made", "prefix", "rt", "span")
+
+    def __init__(self, rt: Runtime, kind: str, span: Span) -> None:
+        file = "" if span.file == rt.program.main else f"{span.file}:"
+        self.rt = rt
+        self.kind = kind
+        self.span = span
+        self.prefix = f"{kind}@{file}{span.line}:{span.col}#"
+        self.made = 0
 
 
 class Runtime:
@@ -59,8 +74,8 @@ class Runtime:
         self.live_elements = 0
         self.frame = 0
         self.modes = RenderModes()
-        self._made_at: dict[tuple[Site | None, str], tuple[str, Iterator[int]]] = {}
-        self._things = 0
+        self._made_at: dict[tuple[Site | None, str], Place] = {}
+        self.things = 0
         self.cancelled = False
         self._steps = 0
         self._slice = SLICE
@@ -75,15 +90,24 @@ class Runtime:
 
     # Budget.
 
-    def ticks(self) -> Iterator[None]:
+    def take_step(self) -> None:
+        """One step where code found its slice used up: another loop may have begun a new one since.
+
+        Raises TrgError at a limit.
+        """
+        scope = self.globals
+        if next(scope["S_"], self) is self:  # type: ignore[call-overload]
+            scope["S_"] = self.next_slice()
+
+    def ticks(self) -> Iterator[bool]:
         """The iterator that every loop of plain functions runs over; raises at a limit."""
         return chain.from_iterable(self._slices())
 
-    def _slices(self) -> Iterator[Iterator[None]]:
+    def _slices(self) -> Iterator[Iterator[bool]]:
         while True:
             yield self.next_slice()
 
-    def next_slice(self) -> Iterator[None]:
+    def next_slice(self) -> Iterator[bool]:
         """Account for a slice of steps, check every limit, and hand out the next slice."""
         self.check_limits()
         left = self.limits.max_steps - self._steps
@@ -91,7 +115,7 @@ class Runtime:
             raise TrgError("E601", "raise_limit", limit=self.limits.max_steps)
         self._slice = min(SLICE, left)
         self._steps += self._slice
-        return repeat(True, self._slice)
+        return iter(_STEPS[: self._slice])
 
     def check_limits(self) -> None:
         """Raise TrgError when time or memory is used up or the host has cancelled."""
@@ -107,11 +131,11 @@ class Runtime:
         reasons that are not the program's: its size counts only when the program holds something.
         """
         limits = self.limits
-        blocks = sys.getallocatedblocks() - self._blocks_start - BLOCKS_OF_THING * self._things
+        blocks = sys.getallocatedblocks() - self._blocks_start - BLOCKS_OF_THING * self.things
         if blocks > limits.max_blocks:
             raise TrgError("E604", limit=f"{limits.max_blocks} blocks")
         if blocks > _HOLDS_SOMETHING:
-            grown = resident_bytes() - self._resident_start - BYTES_OF_THING * self._things
+            grown = resident_bytes() - self._resident_start - BYTES_OF_THING * self.things
             if grown > limits.max_bytes:
                 raise TrgError("E604", limit=f"{limits.max_bytes // 1048576} MB")
 
@@ -165,19 +189,23 @@ class Runtime:
         span = Span(code.co_filename, first, (col or 0) + 1, end_line or first, (end_col or 0) + 1)
         return self.program.sites.get(span) or Site(span)
 
+    def place(self, kind: str) -> Place:
+        """The running call as a place that makes things of a kind."""
+        site = self.site()
+        place = self._made_at.get((site, kind))
+        if place is None:
+            span = site.span if site is not None else self.program.start
+            place = self._made_at[site, kind] = Place(self, kind, span)
+        return place
+
     def make_key(self, kind: str) -> tuple[str, Span]:
         """The key of a thing that the running call makes, and the place of the call.
 
         The k-th thing of a kind made at a place has number k: the same in every run.
         """
-        site = self.site()
-        known = self._made_at.get((site, kind))
-        span = site.span if site is not None else self.program.start
-        if known is None:
-            file = "" if span.file == self.program.main else f"{span.file}:"
-            known = (f"{kind}@{file}{span.line}:{span.col}#", count(1))
-            self._made_at[site, kind] = known
-        return f"{known[0]}{next(known[1])}", span
+        place = self.place(kind)
+        place.made += 1
+        return f"{place.prefix}{place.made}", place.span
 
     # Diagnostics and output.
 
@@ -220,9 +248,12 @@ class Runtime:
 
     def count_thing(self) -> None:
         """Count a shape or light; raises TrgError above the limit."""
-        self._things += 1
-        if self._things > self.limits.max_shapes:
-            raise TrgError("E610", limit=self.limits.max_shapes)
+        self.things += 1
+        if self.things > self.limits.max_shapes:
+            raise self.too_many_things()
+
+    def too_many_things(self) -> TrgError:
+        return TrgError("E610", limit=self.limits.max_shapes)
 
     def text(self, text: str) -> Str:
         return Str(self, text)
@@ -244,7 +275,7 @@ class Runtime:
         frame = trg_frame(self.globals)
         self._operator_depth += 1
         try:
-            result = function(_depth_of(frame) + 1, *operands)
+            result = function(_levels_of(frame), *operands)
         finally:
             self._operator_depth -= 1
         if type(result) is GeneratorType:
@@ -271,8 +302,20 @@ class Runtime:
         return self.call_overload(overload, value)
 
 
-def _depth_of(frame: FrameType | None) -> int:
+def _call_levels(depth: int) -> tuple[object, ...]:
+    levels: tuple[object, ...] = ()
+    for _ in range(depth):
+        levels = (levels,)
+    return levels
+
+
+CALL_LEVELS = _call_levels(MAX_CALL_DEPTH)
+"""What the hidden first argument `d_` of a call holds: as many tuples, each in the next, as calls may
+still be nested. Every function begins with `d_ = d_[0]`, which fails when none is left."""
+
+
+def _levels_of(frame: FrameType | None) -> tuple[object, ...]:
     if frame is None:
-        return 0
-    depth = frame.f_locals.get("d_", 0)
-    return depth if isinstance(depth, int) else MAX_CALL_DEPTH
+        return CALL_LEVELS
+    levels = frame.f_locals.get("d_", CALL_LEVELS)
+    return levels if type(levels) is tuple else ()

@@ -8,6 +8,8 @@ from ..runtime import Runtime
 from ..values import Obj, TrgError, Undef, format_value, type_name
 from ..vector import Vec3
 
+_new = tuple.__new__
+
 
 @HOST.function("print", "...values: anything", "Write values to the log, one line.")
 def _print(rt: Runtime, *values: object) -> object:
@@ -26,25 +28,13 @@ def _isdef(rt: Runtime, value: object) -> object:
     return 0.0 if type(value) is Undef else 1.0
 
 
-def _three_numbers(*arguments: object) -> object:
-    if len(arguments) == 3:
-        x, y, z = arguments
-        if type(x) is float and type(y) is float and type(z) is float:
-            total = x + y + z
-            return Vec3.of(x, y, z) if total - total == 0.0 else None
-    return None
-
-
-@HOST.function(
-    "vec3", "x: num, y: num?, z: num?", "A vector; one number fills all three.", "vec3",
-    fast=_three_numbers,
-)  # fmt: skip
+@HOST.function("vec3", "x: num, y: num?, z: num?", "A vector; one number fills all three.", "vec3")
 def _vec3(rt: Runtime, x: float, y: float | None, z: float | None) -> object:
+    if z is not None:
+        return _new(Vec3, (x, y, z))
     if y is None:
-        return Vec3.of(x, x, x)
-    if z is None:
-        raise TrgError("E506", name="vec3", wanted="1 or 3", given=2)
-    return Vec3.of(x, y, z)
+        return _new(Vec3, (x, x, x))
+    raise TrgError("E506", name="vec3", wanted="1 or 3", given=2)
 
 
 @HOST.function("object", "", "A new object without fields.", "object")

@@ -37,15 +37,10 @@ class SceneObject(Value):
         self._shape_records: tuple[ShapeRecord, ...] | None = ()
         self._light_records: tuple[LightRecord, ...] | None = ()
 
-    def add(self, thing: Shape | Light) -> None:
-        """Put a thing in, once."""
-        if isinstance(thing, Shape):
-            if thing not in self.shapes:
-                self.shapes[thing] = None
-                self.dirty[thing] = None
-        elif thing not in self.lights:
-            self.lights[thing] = None
-            self.dirty[thing] = None
+    def add_light(self, light: Light) -> None:
+        """Put a light in, once."""
+        if light not in self.lights:
+            self.lights[light] = self.dirty[light] = None
 
     def remove(self, thing: Shape | Light) -> None:
         """Take a thing out; one that is not there is no error."""
@@ -91,7 +86,12 @@ def _scene(rt: Runtime) -> object:
 
 @HOST.method(SceneObject, "Add", "item: shape|light", "Put a shape or light in; returns it.")
 def _add(rt: Runtime, scene: SceneObject, item: Shape | Light) -> object:
-    scene.add(item)
+    if isinstance(item, Shape):
+        shapes = scene.shapes
+        if item not in shapes:
+            shapes[item] = scene.dirty[item] = None
+    else:
+        scene.add_light(item)
     return item
 
 

@@ -6,42 +6,25 @@ from dataclasses import replace
 
 from ..bind import HOST
 from ..files import FileError
-from ..runtime import Runtime
+from ..runtime import Place, Runtime
 from ..scene import MediumRecord, TextureRecord
 from ..values import TrgError
 from ..vector import Vec3
 from .things import (
     Light,
+    Look,
     Material,
     Medium,
     Placed,
     Shape,
     Texture,
-    Triple,
+    make_shape,
     multiply,
     name_error,
     rotation,
-    triple,
 )
 
 _LOOKS = "mtl: material|medium?, envi: material|medium?"
-
-
-def _make(
-    rt: Runtime, kind: str, parameters: tuple[Triple | float | str, ...], looks: tuple[object, ...]
-) -> Shape:
-    """A shape with material and medium, given in either order, each at most once."""
-    first, second = looks
-    rt.count_thing()
-    shape = Shape(rt, kind, parameters)
-    if first is not None and type(first) is type(second):
-        raise name_error(kind, "give one material and one enviroment at most")
-    for value in (first, second):
-        if isinstance(value, Material):
-            shape.material = value
-        elif isinstance(value, Medium):
-            shape.medium = value.record
-    return shape
 
 
 def find_file(rt: Runtime, name: str) -> str | None:
@@ -60,72 +43,72 @@ def find_file(rt: Runtime, name: str) -> str | None:
     return None
 
 
-@HOST.function("sphere", f"centre: vec3, radius: num > 0, {_LOOKS}", "A ball.", "shape")
-def _sphere(rt: Runtime, centre: Vec3, radius: float, a: object, b: object) -> object:
-    return _make(rt, "sphere", (triple(centre), radius), (a, b))
+@HOST.maker("sphere", f"centre: vec3, radius: num > 0, {_LOOKS}", "A ball.", "shape")
+def _sphere(place: Place, centre: Vec3, radius: float, a: Look, b: Look) -> object:
+    return make_shape(place, (centre, radius), a, b)
 
 
-@HOST.function("box", f"corner1: vec3, corner2: vec3, {_LOOKS}", "A box between corners.", "shape")
-def _box(rt: Runtime, corner1: Vec3, corner2: Vec3, a: object, b: object) -> object:
-    return _make(rt, "box", (triple(corner1), triple(corner2)), (a, b))
+@HOST.maker("box", f"corner1: vec3, corner2: vec3, {_LOOKS}", "A box between corners.", "shape")
+def _box(place: Place, corner1: Vec3, corner2: Vec3, a: Look, b: Look) -> object:
+    return make_shape(place, (corner1, corner2), a, b)
 
 
-@HOST.function(
+@HOST.maker(
     "plane", f"normal: vec3, distance: num, {_LOOKS}",
     "The infinite plane of the points P with normal . P = distance.", "shape",
 )  # fmt: skip
-def _plane(rt: Runtime, normal: Vec3, distance: float, a: object, b: object) -> object:
+def _plane(place: Place, normal: Vec3, distance: float, a: Look, b: Look) -> object:
     if not any(normal):
         raise name_error("plane", "the normal has no length")
-    return _make(rt, "plane", (triple(normal), distance), (a, b))
+    return make_shape(place, (normal, distance), a, b)
 
 
-@HOST.function(
+@HOST.maker(
     "tor", f"centre: vec3, tube_radius: num > 0, ring_radius: num > 0, {_LOOKS}",
     "A torus round the Y axis.", "shape",
 )  # fmt: skip
-def _tor(rt: Runtime, centre: Vec3, tube: float, ring: float, *looks: object) -> object:
-    return _make(rt, "tor", (triple(centre), tube, ring), looks)
+def _tor(place: Place, centre: Vec3, tube: float, ring: float, *looks: Look) -> object:
+    return make_shape(place, (centre, tube, ring), *looks)
 
 
-@HOST.function(
+@HOST.maker(
     "conus", f"base_centre: vec3, radius: num > 0, height: num > 0, {_LOOKS}",
     "A cone that stands on its base and points along +Y.", "shape",
 )  # fmt: skip
-def _conus(rt: Runtime, base: Vec3, radius: float, height: float, *looks: object) -> object:
-    return _make(rt, "conus", (triple(base), radius, height), looks)
+def _conus(place: Place, base: Vec3, radius: float, height: float, *looks: Look) -> object:
+    return make_shape(place, (base, radius, height), *looks)
 
 
-@HOST.function(
+@HOST.maker(
     "cylinder", f"base_centre: vec3, radius: num > 0, height: num > 0, {_LOOKS}",
     "A cylinder that stands on its base, along +Y.", "shape",
 )  # fmt: skip
-def _cylinder(rt: Runtime, base: Vec3, radius: float, height: float, *looks: object) -> object:
-    return _make(rt, "cylinder", (triple(base), radius, height), looks)
+def _cylinder(place: Place, base: Vec3, radius: float, height: float, *looks: Look) -> object:
+    return make_shape(place, (base, radius, height), *looks)
 
 
-@HOST.function(
+@HOST.maker(
     "fence", f"centre: vec3, radius: num > 0, height: num > 0, count: num 3..10000, {_LOOKS}",
     "A ring of wall pieces round the Y axis, centred on centre.", "shape",
 )  # fmt: skip
-def _fence(rt: Runtime, centre: Vec3, radius: float, height: float, *rest: object) -> object:
+def _fence(place: Place, centre: Vec3, radius: float, height: float, *rest: object) -> object:
     count, a, b = rest
     pieces = float(int(count))  # type: ignore[call-overload]
-    return _make(rt, "fence", (triple(centre), radius, height, pieces), (a, b))
+    return make_shape(place, (centre, radius, height, pieces), a, b)  # type: ignore[arg-type]
 
 
-@HOST.function("triangle", f"p0: vec3, p1: vec3, p2: vec3, {_LOOKS}", "One triangle.", "shape")
-def _triangle(rt: Runtime, p0: Vec3, p1: Vec3, p2: Vec3, *looks: object) -> object:
-    return _make(rt, "triangle", (triple(p0), triple(p1), triple(p2)), looks)
+@HOST.maker("triangle", f"p0: vec3, p1: vec3, p2: vec3, {_LOOKS}", "One triangle.", "shape")
+def _triangle(place: Place, p0: Vec3, p1: Vec3, p2: Vec3, *looks: Look) -> object:
+    return make_shape(place, (p0, p1, p2), *looks)
 
 
-@HOST.function(
+@HOST.maker(
     "model", "file: str, envi: material|medium?, mtl: material|medium?",
     "A mesh from a .g3dm, .obj, .glb, .ply or .stl file, as large as it is there.", "shape",
 )  # fmt: skip
-def _model(rt: Runtime, file: str, a: object, b: object) -> object:
-    shape = _make(rt, "model", (file,), (a, b))
-    shape.path = find_file(rt, file)
+def _model(place: Place, file: str, a: Look, b: Look) -> object:
+    shape = make_shape(place, (file,), a, b)
+    shape.path = find_file(place.rt, file)
     return shape
 
 
@@ -206,8 +189,7 @@ def _name_light(rt: Runtime, light: Light, name: str) -> object:
 
 @HOST.method(Shape, "Copy", "", "Another shape that shares the mesh; not yet in the scene.")
 def _copy_shape(rt: Runtime, shape: Shape) -> object:
-    rt.count_thing()
-    return shape.copy()
+    return shape.copy(rt.place(shape.figure))
 
 
 @HOST.method(Light, "Copy", "", "Another light of the same kind; not yet in the scene.")

@@ -9,7 +9,7 @@ import math
 from collections.abc import Callable
 from dataclasses import replace
 
-from ..runtime import Runtime
+from ..runtime import Place, Runtime
 from ..scene import (
     IDENTITY,
     TEXTURE_SLOTS,
@@ -25,6 +25,7 @@ from ..vector import Vec3
 
 Triple = tuple[float, float, float]
 AIR = MediumRecord()
+_new = object.__new__
 
 
 def triple(v: Vec3) -> Triple:
@@ -108,6 +109,10 @@ class Material(Value):
         return f"material {self._draft.name}"
 
 
+Look = Material | Medium | None
+"""What a shape may be given at the end of its arguments."""
+
+
 class Placed(Value):
     """A shape or a light: stands in the scene or not, and can be moved and named."""
 
@@ -124,32 +129,39 @@ class Placed(Value):
 
 
 class Shape(Placed):
-    """A shape of the scene."""
+    """A shape of the scene; `make_shape` makes it."""
 
     __slots__ = (
-        "_record", "figure", "key", "material", "medium", "mesh_key", "name", "origin",
-        "parameters", "path", "transform",
+        "_record", "material", "medium", "mesh", "name", "number", "parameters", "path", "place",
+        "transform",
     )  # fmt: skip
     kind = "shape"
 
-    def __init__(self, rt: Runtime, figure: str, parameters: tuple[Triple | float | str, ...]) -> None:
-        self.rt = rt
-        self.figure = figure
-        self.parameters = parameters
-        self.key, self.origin = rt.make_key(figure)
-        self.mesh_key = self.key
-        self.material: Material | None = None
-        self.medium = AIR
-        self.transform: Transform = IDENTITY
-        self.name = ""
-        self.path: str | None = None
-        self._record: ShapeRecord | None = None
+    parameters: tuple[object, ...]
+    place: Place
+    number: int
+    material: Material | None
+    medium: MediumRecord
+    transform: Transform
+    name: str
+    path: str | None
+    mesh: Shape | None
+    """The shape whose mesh it shares, None for its own."""
+    _record: ShapeRecord | None
 
-    def copy(self) -> Shape:
-        """Another shape that shares the mesh."""
-        made = Shape(self.rt, self.figure, self.parameters)
-        made.mesh_key, made.path, made.name = self.mesh_key, self.path, self.name
-        made.material, made.medium, made.transform = self.material, self.medium, self.transform
+    @property
+    def figure(self) -> str:
+        return self.place.kind
+
+    @property
+    def key(self) -> str:
+        return f"{self.place.prefix}{self.number}"
+
+    def copy(self, place: Place) -> Shape:
+        """Another shape that shares the mesh, made at `place`."""
+        made = make_shape(place, self.parameters, self.material, None)
+        made.mesh, made.path, made.name = self.mesh or self, self.path, self.name
+        made.medium, made.transform = self.medium, self.transform
         return made
 
     def move_by(self, change: Callable[[Transform], Transform]) -> None:
@@ -159,16 +171,59 @@ class Shape(Placed):
     def record(self) -> ShapeRecord:
         last = self._record
         material = None if self.material is None else self.material.record()
+        if last is None:
+            key = self.key
+            self._record = last = ShapeRecord(
+                key, 1, self.figure, tuple(map(_plain, self.parameters)),
+                key if self.mesh is None else self.mesh.key, material, self.medium, self.transform,
+                self.name, self.path, self.place.span,
+            )  # fmt: skip
+            return last
         now = (material, self.medium, self.transform, self.name)
-        if last is None or now != (last.material, last.medium, last.transform, last.name):
-            last = self._record = ShapeRecord(
-                self.key, 1 if last is None else last.version + 1, self.figure, self.parameters,
-                self.mesh_key, *now, self.path, self.origin,
+        if now != (last.material, last.medium, last.transform, last.name):
+            self._record = last = replace(
+                last, version=last.version + 1, material=material, medium=self.medium,
+                transform=self.transform, name=self.name,
             )  # fmt: skip
         return last
 
     def shown(self) -> str:
         return self.figure
+
+
+def _plain(value: object) -> Triple | float | str:
+    return tuple(value) if type(value) is Vec3 else value  # type: ignore[return-value]
+
+
+def make_shape(place: Place, parameters: tuple[object, ...], first: Look, second: Look) -> Shape:
+    """The shape that a call at `place` makes. Material and medium come in either order, each at most once.
+
+    Most of what a program with many shapes does happens here: no work that Render() can do.
+    """
+    rt = place.rt
+    rt.count_thing()
+    place.made = number = place.made + 1
+    shape: Shape = _new(Shape)
+    shape.rt = rt
+    shape.parameters = parameters
+    shape.place = place
+    shape.number = number
+    shape.medium = AIR
+    shape.transform = IDENTITY
+    shape.name = ""
+    shape.path = shape.mesh = shape._record = None
+    if second is None and (first is None or isinstance(first, Material)):
+        shape.material = first
+        return shape
+    if first is not None and type(first) is type(second):
+        raise name_error(place.kind, "give one material and one enviroment at most")
+    shape.material = None
+    for value in (first, second):
+        if isinstance(value, Material):
+            shape.material = value
+        elif isinstance(value, Medium):
+            shape.medium = value.record
+    return shape
 
 
 class Light(Placed):
