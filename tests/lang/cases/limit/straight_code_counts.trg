@@ -1,5 +1,5 @@
-//@ limit max_steps = 1000
+//@ limit max_steps = 30000
 //@ let LINE = "x = 1;\n" * 300
 f = function() { y = 1;
 ${LINE} };
-for (i = 0; i < 3; i++) f(); print("few");   //= few
+for (i = 0; i < 200; i++) f(); print("few");   //= few

@@ -1,0 +1,2 @@
+include("nowhere.trg");   //! E511@9
+print(made_there);

@@ -1,0 +1,5 @@
+//@ frames 3
+Scene = scene(); for (x in [1, 2, 3]) { Scene.Render(); print(x); }
+//= 1
+//= 2
+//= 3

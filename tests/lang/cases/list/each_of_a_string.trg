@@ -1,0 +1,1 @@
+for (c in "abc") print(c);   //! E444@11: str

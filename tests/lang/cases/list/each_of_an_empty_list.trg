@@ -1,0 +1,1 @@
+for (x in []) print("never"); print(isdef(x));   //= 0

@@ -1,0 +1,1 @@
+l = [function() { return "called"; }]; print(l[0]());   //= called

@@ -1,0 +1,1 @@
+if ([]) print("true");   //= true
