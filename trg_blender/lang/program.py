@@ -168,10 +168,12 @@ def understand(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -
 
 
 def without_consequences(bag: DiagnosticBag) -> tuple[Diagnostic, ...]:
-    """The diagnostics in order, without parse errors on lines that the scanner already reported."""
+    """The diagnostics in order, without what follows on a line that the scanner already reported."""
     scanned = {(d.span.file, d.span.line) for d in bag.items if d.code.startswith("E1")}
     return tuple(
-        d for d in bag.in_order() if not (d.code.startswith("E2") and (d.span.file, d.span.line) in scanned)
+        d
+        for d in bag.in_order()
+        if d.code[:2] not in ("E2", "E3") or (d.span.file, d.span.line) not in scanned
     )
 
 
