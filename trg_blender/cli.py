@@ -23,6 +23,7 @@ COMMANDS = {
     "run": "run a TRG program alone: its output and diagnostics",
     "check": "diagnostics of a TRG program, one a line",
     "fmt": "TRG programs in the standard layout",
+    "lsp": "language server for editors",
     "info": "version, devices and why one is absent",
 }
 
