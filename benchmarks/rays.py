@@ -1,15 +1,16 @@
-"""Rays per second of the native core against Embree (embreex), one thread each.
+"""Rays per second of the native core against Embree, through its C API and through embreex.
 
-Usage: python -m benchmarks.rays [MODEL.g3dm | MODEL.npz ...] [--rays N] [--rounds N] [--accel bvh]
+Usage: python -m benchmarks.rays [SCENE | MODEL.g3dm ...] [--rays N] [--rounds N] [--accel NAME ...]
+       [--threads N] [--cache FOLDER] [--json FILE]
 
-Runs of the two are interleaved, so that a busy machine slows both; the ratio is the median over the
-rounds of native / embreex, with the quartiles as its spread.
+Every round traces the same rays once with each tracer, so that a busy machine slows all; a speed is
+the best round's, in rays per second of one processor (processor time, not the clock on the wall).
 """
 
 from __future__ import annotations
 
 import argparse
-import os
+import json
 import sys
 import time
 from collections.abc import Callable
@@ -17,152 +18,211 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
-ROOT = Path(__file__).resolve().parents[1]
-SHARED = Path(os.environ.get("TRG_SHARED", ROOT.parent / "shared"))
-Float32 = NDArray[np.float32]
-Int32 = NDArray[np.int32]
+from .embree_c import WAYS, Embree, EmbreeScene
+from .ray_scenes import ROOT, SCENES, Mesh, Rays, Results, empty_results, ray_sets, read_g3dm, read_scene
 
-
-@dataclass(frozen=True)
-class Mesh:
-    vertices: Float32
-    triangles: Int32
+Trace = Callable[[Rays, Results], None]
+BUILD_ROUNDS = 3
 
 
 @dataclass(frozen=True)
-class Rays:
+class Built:
+    seconds: float
+    """processor seconds, best of BUILD_ROUNDS"""
+    bytes: int
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Tracer:
     name: str
-    origins: Float32
-    directions: Float32
+    trace: Trace
+    shadows: bool = True
+    """whether it knows any-hit queries"""
+    once: bool = False
+    """slow: only primary and diffuse rays, for the ratio through Python"""
 
 
-def read_g3dm(path: Path) -> Mesh:
-    """All triangles of a G3DM file, materials left aside."""
-    data = path.read_bytes()
-    count = int(np.frombuffer(data, "<u4", 1, 4)[0])
-    offset, base = 16, 0
-    vertices, triangles = [], []
-    for _ in range(count):
-        vertex_count, index_count, _material = np.frombuffer(data, "<i4", 3, offset)
-        offset += 12
-        rows = np.frombuffer(data, "<f4", vertex_count * 12, offset).reshape(-1, 12)
-        offset += 48 * int(vertex_count)
-        indices = np.frombuffer(data, "<i4", index_count, offset).reshape(-1, 3)
-        offset += 4 * int(index_count)
-        vertices.append(rows[:, :3])
-        triangles.append(indices + base)
-        base += int(vertex_count)
-    return Mesh(
-        np.ascontiguousarray(np.concatenate(vertices), dtype=np.float32),
-        np.ascontiguousarray(np.concatenate(triangles), dtype=np.int32),
-    )
+def native_tracer(mesh: Mesh, accel: str, threads: int) -> tuple[Tracer, Built]:
+    """Our own core, with arrays that are there already."""
+    import trg_native
 
-
-def read_mesh(path: Path) -> Mesh:
-    if path.suffix.lower() == ".g3dm":
-        return read_g3dm(path)
-    with np.load(path) as arrays:
-        by_width = {arrays[k].dtype.kind: arrays[k] for k in arrays.files if arrays[k].ndim == 2}
-        return Mesh(
-            by_width["f"].astype(np.float32), by_width["i" if "i" in by_width else "u"].astype(np.int32)
+    best = Built(np.inf, 0)
+    for _ in range(BUILD_ROUNDS):
+        scene = trg_native.Scene(accel=accel, triangle_test="watertight")
+        scene.add_instance(scene.add_mesh(mesh.vertices, mesh.triangles, None, None, None), None, None)
+        start = time.process_time()
+        stats = scene.build(threads)
+        best = min(
+            best, Built(time.process_time() - start, stats["bytes"], stats["accel"]), key=lambda b: b.seconds
         )
 
+    def trace(rays: Rays, results: Results) -> None:
+        ranges = (rays.origins, rays.directions, rays.t_min, rays.t_max)
+        if rays.shadow:
+            scene.occluded(*ranges, results.hidden, threads)
+        else:
+            r = results
+            scene.intersect(*ranges, r.t, r.u, r.v, r.triangle, r.instance, threads)
 
-def primary_rays(mesh: Mesh, count: int) -> Rays:
-    """Rays of a pinhole camera that has the whole mesh in view, row by row."""
-    low, high = mesh.vertices.min(axis=0), mesh.vertices.max(axis=0)
-    centre, size = (low + high) / 2, float(np.linalg.norm(high - low))
-    eye = centre + size * np.array([0.55, 0.35, 0.75], np.float32)
-    forward = (centre - eye) / np.linalg.norm(centre - eye)
-    right = np.cross(forward, [0.0, 1.0, 0.0])
-    right /= np.linalg.norm(right)
-    up = np.cross(right, forward)
-    side = int(np.sqrt(count))
-    at = (np.arange(side) + 0.5) / side - 0.5
-    y, x = np.meshgrid(at, at, indexing="ij")
-    directions = forward + 0.9 * (x[..., None] * right + y[..., None] * up)
-    directions = np.ascontiguousarray(directions.reshape(-1, 3), dtype=np.float32)
-    origins = np.ascontiguousarray(np.broadcast_to(eye, directions.shape), dtype=np.float32)
-    return Rays("primary", origins, directions)
+    return Tracer(f"trg {accel}", trace), best
 
 
-def diffuse_rays(mesh: Mesh, primary: Rays, triangles: Int32, seed: int) -> Rays:
-    """Rays from the triangles that `primary` met, cosine-distributed on the side seen, in random order.
+def embree_tracers(mesh: Mesh, embree: Embree, threads: int) -> tuple[list[Tracer], dict[str, Built]]:
+    """Embree in all WAYS; ways of the same tree share it."""
+    scenes: dict[tuple[str, bool], EmbreeScene] = {}
+    built: dict[str, Built] = {}
+    tracers = []
+    for way in WAYS:
+        key = (way.quality, way.robust)
+        if key not in scenes:
+            seconds = []
+            for _ in range(BUILD_ROUNDS):
+                if key in scenes:
+                    scenes[key].close()
+                scenes[key] = EmbreeScene(embree, mesh, way, threads)
+                seconds.append(scenes[key].seconds)
+            built[f"embree {way.name}"] = Built(min(seconds), scenes[key].bytes)
 
-    `triangles` is what each primary ray met, -1 for nothing; rays start at random points of them.
-    """
-    rng = np.random.default_rng(seed)
-    seen = rng.permutation(np.resize(np.flatnonzero(triangles >= 0), len(triangles)))
-    corners = mesh.vertices[mesh.triangles[triangles[seen]]].astype(np.float64)
-    u, v = rng.random((2, len(seen), 1))
-    fold = u + v > 1
-    u, v = np.where(fold, 1 - u, u), np.where(fold, 1 - v, v)
-    first, second = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    normals = np.cross(first, second)
-    normals /= np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-30)
-    towards = np.einsum("ij,ij->i", normals, primary.directions[seen].astype(np.float64))
-    normals[towards > 0] *= -1
-    scatter = rng.normal(size=normals.shape)
-    scatter /= np.linalg.norm(scatter, axis=1, keepdims=True)
-    points = corners[:, 0] + u * first + v * second + 1e-4 * normals
-    return Rays("diffuse", points.astype(np.float32), (normals * 1.0001 + scatter).astype(np.float32))
+        def trace(rays: Rays, results: Results, way: object = way, scene: EmbreeScene = scenes[key]) -> None:
+            scene.trace(rays, results, way, threads)
 
-
-def native_tracer(mesh: Mesh, accel: str) -> Callable[[Rays], Int32]:
-    sys.path.insert(0, str(ROOT))
-    from trg_blender.engine.native import RayScene
-
-    scene = RayScene(accel)
-    scene.add_instance(scene.add_mesh(mesh.vertices, mesh.triangles))
-    scene.build()
-    return lambda rays: scene.intersect(rays.origins, rays.directions, threads=1).triangle
+        tracers.append(Tracer(f"embree {way.name}", trace))
+    return tracers, built
 
 
-def embree_tracer(mesh: Mesh) -> Callable[[Rays], Int32]:
+def embreex_tracer(mesh: Mesh) -> Tracer:
+    """embreex: one ray after the other through Python buffers, closest hits only."""
     from embreex import rtcore_scene
     from embreex.mesh_construction import TriangleMesh
 
     scene = rtcore_scene.EmbreeScene()
     TriangleMesh(scene, mesh.vertices, mesh.triangles)
     scene.run(np.zeros((1, 3), np.float32), np.ones((1, 3), np.float32))
-    return lambda rays: scene.run(rays.origins, rays.directions)
+
+    def trace(rays: Rays, results: Results) -> None:
+        results.triangle[:] = scene.run(rays.origins, rays.directions)
+
+    return Tracer("embreex", trace, shadows=False)
 
 
-def time_of(tracer: Callable[[Rays], Int32], rays: Rays) -> float:
-    """Processor seconds, which a busy machine disturbs less than the clock on the wall."""
-    start = time.thread_time()
-    tracer(rays)
-    return time.thread_time() - start
+def measure(tracers: list[Tracer], rays: Rays, rounds: int, threads: int) -> dict[str, float]:
+    """Mrays/s of each tracer: rays over processor seconds, times threads."""
+    results = empty_results(len(rays.origins))
+    able = [t for t in tracers if t.shadows or not rays.shadow]
+    best = dict.fromkeys((t.name for t in able), np.inf)
+    for _ in range(rounds):
+        for tracer in able:
+            start = time.process_time()
+            tracer.trace(rays, results)
+            best[tracer.name] = min(best[tracer.name], time.process_time() - start)
+    return {name: len(rays.origins) * threads / seconds / 1e6 for name, seconds in best.items()}
 
 
-def compare(tracers: tuple[Callable[[Rays], Int32], Callable[[Rays], Int32]], rays: Rays, rounds: int) -> str:
-    """One line: both speeds (best round) and the quartiles of the ratio."""
-    times = np.array([[time_of(tracer, rays) for tracer in tracers] for _ in range(rounds + 1)][1:])
-    native, embree = len(rays.origins) / times.min(axis=0) / 1e6
-    low, median, high = np.quantile(times[:, 1] / times[:, 0], [0.25, 0.5, 0.75])
-    agree = float(np.mean(tracers[0](rays) == tracers[1](rays)))
-    return (
-        f"{rays.name:8} native {native:7.2f} embreex {embree:7.2f} Mrays/s  "
-        f"ratio {median:5.2f} [{low:.2f}, {high:.2f}]  same triangle {agree:.5f}"
+def agreement(tracers: list[Tracer], rays: Rays) -> float:
+    """Share of rays for which the first tracer and Embree robust say the same."""
+    answers = []
+    for tracer in tracers:
+        results = empty_results(len(rays.origins))
+        tracer.trace(rays, results)
+        answers.append(results.hidden if rays.shadow else results.triangle)
+    return float(np.mean(answers[0] == answers[1]))
+
+
+def ratios(speeds: dict[str, float], ours: str) -> dict[str, float]:
+    """Our speed over those that the targets name."""
+    packets = max(speeds["embree packets"], speeds["embree coherent"])
+    single = max(speeds["embree medium"], speeds["embree high"])
+    result = {
+        "robust": speeds[ours] / speeds["embree robust"],
+        "single": speeds[ours] / single,
+        "packets": speeds[ours] / packets,
+        "better": speeds[ours] / max(single, packets),
+    }
+    if "embreex" in speeds:
+        result["embreex"] = speeds[ours] / speeds["embreex"]
+    return result
+
+
+def report_scene(name: str, mesh: Mesh, embree: Embree, arguments: argparse.Namespace) -> dict[str, object]:
+    """Builds, traces and prints one scene; returns what was found."""
+    threads = arguments.threads
+    natives = [native_tracer(mesh, accel, threads) for accel in arguments.accel]
+    peers, built = embree_tracers(mesh, embree, threads)
+    tracers = [tracer for tracer, _ in natives] + peers
+    if threads == 1 and not arguments.no_embreex:
+        tracers.append(embreex_tracer(mesh))
+    built = {tracer.name: b for tracer, b in natives} | built
+    count = len(mesh.triangles)
+    say(f"\n{name}: {count} triangles, {threads} thread(s)")
+    for tracer_name, b in built.items():
+        say(f"  build {tracer_name:16} {b.seconds:7.3f} CPU s {b.bytes / count:6.1f} B/triangle")
+
+    def nearest(rays: Rays) -> Results:
+        results = empty_results(len(rays.origins))
+        tracers[0].trace(rays, results)
+        return results
+
+    rows: dict[str, object] = {}
+    say(
+        "  Mrays/s  "
+        + " ".join(f"{t.name.removeprefix('embree '):>9}" for t in tracers)
+        + "  trg / robust single packets embreex"
     )
+    for rays in ray_sets(mesh, arguments.rays, nearest):
+        speeds = measure(tracers, rays, arguments.rounds, threads)
+        found = ratios(speeds, tracers[0].name)
+        rows[rays.name] = {"speeds": speeds, "ratios": found, "count": len(rays.origins)}
+        shown = " ".join(f"{speeds.get(t.name, np.nan):9.2f}" for t in tracers)
+        same = agreement([tracers[0], peers[0]], rays)
+        say(
+            f"  {rays.name:8} {shown}  {found['robust']:10.2f} {found['single']:6.2f} {found['packets']:7.2f}"
+            f" {found.get('embreex', np.nan):7.2f}  same {same:.6f}"
+        )
+    builds = {k: (b.seconds, b.bytes / count) for k, b in built.items()}
+    return {"rays": rows, "build": builds, "triangles": count}
+
+
+def geometric_means(found: dict[str, dict[str, object]]) -> None:
+    """Prints the mean over scenes of every ratio, and of build time and memory."""
+    say("\ngeometric means over " + ", ".join(found))
+    first = next(iter(found.values()))
+    for kind in first["rays"]:
+        rows = [scene["rays"][kind]["ratios"] for scene in found.values()]
+        means = {key: float(np.exp(np.mean(np.log([row[key] for row in rows])))) for key in rows[0]}
+        say(f"  {kind:8} " + "  ".join(f"{key} {value:.2f}" for key, value in means.items()))
+    ours = next(iter(first["build"]))
+    times = [scene["build"][ours][0] / scene["build"]["embree medium"][0] for scene in found.values()]
+    space = [scene["build"][ours][1] for scene in found.values()]
+    mean_time, mean_space = np.exp(np.mean(np.log([times, space]), axis=1))
+    say(f"  build time / Embree medium {mean_time:.2f}, bytes a triangle {mean_space:.1f}")
+
+
+def say(line: str) -> None:
+    sys.stdout.write(line + "\n")
+    sys.stdout.flush()
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("models", nargs="*", type=Path, default=[SHARED / "data/models/cow.g3dm"])
-    parser.add_argument("--rays", type=int, default=1 << 19)
-    parser.add_argument("--rounds", type=int, default=9)
-    parser.add_argument("--accel", default="bvh")
+    parser.add_argument("scenes", nargs="*", default=list(SCENES))
+    parser.add_argument("--rays", type=int, default=1 << 18)
+    parser.add_argument("--rounds", type=int, default=5)
+    parser.add_argument("--accel", nargs="+", default=["bvh"])
+    parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--cache", type=Path, default=ROOT / "build/benchmarks")
+    parser.add_argument("--json", type=Path)
+    parser.add_argument("--no-embreex", action="store_true")
     arguments = parser.parse_args()
-    for path in arguments.models:
-        mesh = read_mesh(path)
-        tracers = (native_tracer(mesh, arguments.accel), embree_tracer(mesh))
-        sys.stdout.write(f"{path.name}: {len(mesh.triangles)} triangles\n")
-        primary = primary_rays(mesh, arguments.rays)
-        for rays in (primary, diffuse_rays(mesh, primary, tracers[0](primary), 1)):
-            sys.stdout.write(compare(tracers, rays, arguments.rounds) + "\n")
+    embree = Embree(arguments.cache)
+    found = {}
+    for scene in arguments.scenes:
+        mesh = read_g3dm(Path(scene)) if scene.endswith(".g3dm") else read_scene(scene, arguments.cache)
+        found[Path(scene).stem] = report_scene(scene, mesh, embree, arguments)
+    geometric_means(found)
+    if arguments.json:
+        arguments.json.write_text(json.dumps(found, indent=1))
 
 
 if __name__ == "__main__":
