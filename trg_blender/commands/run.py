@@ -19,6 +19,7 @@ from ..lang import (
     compile_source,
     render_diagnostic,
 )
+from ..lang.files import bundled_library
 
 DONE, WRONG, OUT_OF_BUDGET = 0, 1, 3
 
@@ -75,9 +76,20 @@ def read_program(file: str) -> tuple[str, str]:
     """The name for messages and the text. OSError when it cannot be read as UTF-8 text."""
     path = Path(file)
     try:
-        return path.name, path.read_text(encoding="utf-8")
+        return program_name(path), path.read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
         raise OSError(f"{file} is not a text in UTF-8") from error
+
+
+def program_name(path: Path) -> str:
+    """The file's name; of a text of the bundled library its canonical one, `stl/...`.
+
+    Only texts under `stl/` may assign names in `stl::`, whichever way they are reached.
+    """
+    library, place = bundled_library(), path.resolve()
+    if library is not None and place.is_relative_to((library / "stl").resolve()):
+        return place.relative_to(library.resolve()).as_posix()
+    return path.name
 
 
 def _show(
