@@ -30,16 +30,12 @@ class RealBlender:
 
     def run(self, *arguments: str | Path, gui: bool = False, timeout_s: float = 300.0) -> Finished:
         """Runs `blender ARGUMENTS`; fails the test when it takes longer than `timeout_s`."""
-        command = [
-            TOOL,
-            "run",
-            "--version",
-            self.version,
-            *(["--gui"] if gui else []),
-            "--",
-            "blender",
-            *arguments,
-        ]
+        return self.command("blender", *arguments, gui=gui, timeout_s=timeout_s)
+
+    def command(self, *words: str | Path, gui: bool = False, timeout_s: float = 300.0) -> Finished:
+        """Runs any command where Blender is installed; otherwise as `run`."""
+        window = ["--gui"] if gui else []
+        command = [TOOL, "run", "--version", self.version, *window, "--", *words]
         environment = os.environ | {"BLENDER_USER_RESOURCES": str(self.user_directory)}
         done = subprocess.run(
             [str(part) for part in command],

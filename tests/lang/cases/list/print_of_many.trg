@@ -1,2 +1,4 @@
-l = []; for (i = 0; i < 150; i++) l.append(0);
-print(l[99], len(l));   //= 0 150
+//@ let FIRST = "{i}, " * 100
+l = []; for (i = 1; i <= 101; i++) l.append(i);
+print(l);
+//= [${FIRST}...]
