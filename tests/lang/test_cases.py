@@ -1,0 +1,55 @@
+"""The language cases, one test each, and their bond with docs/language.md and the message table."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from trg_blender.lang.messages import MESSAGES
+
+from .case_file import all_names, read_case
+from .cases import failure_of
+from .conformance import FOLDER, ROOT
+
+SPECIFICATION = ROOT / "docs" / "language.md"
+_ID = re.compile(r"\[([a-z]+/[a-z0-9_]+)\]")
+
+WITHOUT_CASE = {
+    "E609": "the host cancels from outside: tests/lang/test_session.py",
+    "E611": "needs a computer without memory",
+    "E900": "stands for a fault of ours that is not known yet",
+}
+"""Codes that no program brings up by itself, with the reason."""
+
+
+@pytest.mark.parametrize("name", all_names())
+def test_case(name: str) -> None:
+    assert failure_of(name) == ""
+
+
+def test_there_are_enough_cases() -> None:
+    assert len(all_names()) >= 350
+
+
+def test_the_specification_names_every_case_and_no_other() -> None:
+    named = set(_ID.findall(SPECIFICATION.read_text(encoding="utf-8")))
+    assert named == set(all_names())
+
+
+def test_every_code_has_a_case_or_a_reason() -> None:
+    shown = {finding.code for name in all_names() for finding in read_case(name).findings}
+    assert set(MESSAGES) - shown == set(WITHOUT_CASE)
+
+
+def test_cases_are_not_those_of_the_shared_data() -> None:
+    if not FOLDER.is_dir():
+        pytest.skip("the shared conformance programs are not here")
+    theirs = {_bare(path.read_bytes().decode("utf-8")) for path in FOLDER.rglob("*.trg")}
+    same = [name for name in all_names() if _bare(read_case(name).main) in theirs]
+    assert same == []
+
+
+def _bare(text: str) -> str:
+    """A program without comments and spaces."""
+    return re.sub(r"\s+", "", re.sub(r"//[^\n]*", "", text))
