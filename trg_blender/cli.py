@@ -23,6 +23,7 @@ COMMANDS = {
     "run": "run a TRG program alone: its output and diagnostics",
     "check": "diagnostics of a TRG program, one a line",
     "fmt": "TRG programs in the standard layout",
+    "doc": "reference of the language and its library, generated",
     "lsp": "language server for editors",
     "info": "version, devices and why one is absent",
 }

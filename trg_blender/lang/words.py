@@ -59,7 +59,7 @@ PREFIX_DOCS = {
 
 TYPE_DOCS = {
     "num": "a number: a double; comparisons give 1 or 0",
-    "str": 'a string in double quotes, with \\n \\t \\r \\0 \\" \\\\',
+    "str": 'a string in double quotes, with the escapes `\\n` `\\t` `\\r` `\\0` `\\"` `\\\\`',
     "vec3": "three numbers with the fields x, y, z; it is a value and never changes",
     "object": "fields by name, made by `object()` or by assigning to a field; a reference",
     "list": "values by index from 0, made by `[a, b]` or `list()`; a reference",
