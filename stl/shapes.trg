@@ -26,9 +26,9 @@
  *   Scene.CamSet(640, 360, vec3(0, 6, 14), vec3(0, 1.5, 0), vec3(0, 1, 0));
  *   Scene.Render();
  */
-include("shapes/rod.trg");
-include("shapes/fence.trg");
-include("shapes/stairs.trg");
-include("shapes/gear.trg");
-include("shapes/spring.trg");
-include("shapes/wall.trg");
+include("stl/shapes/rod.trg");
+include("stl/shapes/fence.trg");
+include("stl/shapes/stairs.trg");
+include("stl/shapes/gear.trg");
+include("stl/shapes/spring.trg");
+include("stl/shapes/wall.trg");
