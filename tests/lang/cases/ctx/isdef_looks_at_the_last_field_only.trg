@@ -1,0 +1,1 @@
+o = object(); x = isdef(o.g.h);   //! E421@25

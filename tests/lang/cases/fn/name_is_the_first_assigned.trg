@@ -1,0 +1,2 @@
+f = g = function() { return 1 / 0; };   //! E401@29
+f();   //< g@1

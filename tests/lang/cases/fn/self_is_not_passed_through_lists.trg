@@ -1,0 +1,1 @@
+f = function(self) { return typeof(self); }; l = [f]; print(l[0](5));   //= num
