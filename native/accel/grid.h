@@ -1,4 +1,4 @@
-/// A regular grid over boxes; each cell lists the items that touch it.
+/// Regular grids over boxes, one or two levels deep; each cell lists the items that touch it.
 #pragma once
 
 #include <vector>
@@ -7,11 +7,27 @@
 
 namespace trg {
 
-/// Cells count in x first, then y, then z. Cell c has the blocks cell_begin[c] to cell_begin[c + 1].
+/// What entering a finer grid costs, in tests of a block.
+constexpr double kEnterCost = 3.0;
+
+/// Cells count in x first, then y, then z; the grid's first cell is `first_cell` of its index.
 struct Grid {
     int32_t size[3] = {0, 0, 0};
+    int64_t first_cell = 0;
     double low[3] = {0, 0, 0};
     double cell[3] = {0, 0, 0};
+};
+
+TRG_FN int64_t cell_count(const Grid& grid) {
+    return int64_t{grid.size[0]} * grid.size[1] * grid.size[2];
+}
+
+/// A grid, and in some of its cells a finer one. Cell c of all of them in a row has the blocks
+/// cell_begin[c] to cell_begin[c + 1]; a cell with a finer grid has none itself.
+struct GridIndex {
+    Grid outer;
+    std::vector<Grid> inner;
+    std::vector<int32_t> inner_of_cell;   // by cell of `outer`, -1: none; empty when no cell has one
     std::vector<uint32_t> cell_begin;
 };
 
@@ -21,11 +37,24 @@ struct CellLists {
     std::vector<int32_t> items;
 };
 
-/// A grid of about two cells an item over `bounds`, padded so that no item lies on its border.
-Grid lay_grid(const Bounds& bounds, int64_t item_count);
+/// A grid over `bounds`, padded so that no item lies on its border, with about `cells` cells.
+Grid lay_grid(const Bounds& bounds, double cells);
+
+/// What a ray that crosses the whole grid is expected to cost, in block tests, when the items are
+/// `refs`: a random line meets a convex cell as often as the cell's share of the box's surface.
+double expected_cost(const Grid& grid, const std::vector<PrimRef>& refs);
+
+/// The resolution at which `expected_cost` is least, searched by doubling and halving.
+Grid best_grid(const Bounds& bounds, const std::vector<PrimRef>& refs);
+
+/// A coarser grid whose full cells are meant to be divided again.
+Grid best_outer_grid(const Bounds& bounds, const std::vector<PrimRef>& refs);
+
+/// Box of cell `cell` of the grid.
+Bounds cell_bounds(const Grid& grid, int64_t cell);
 
 /// The indices of the references that touch each cell, closed and widened by 1e-4 of a cell, in
-/// ascending order. Sets of references are capped at 2^31 entries: throws length_error above.
+/// ascending order. Throws length_error above 2^31 entries.
 CellLists list_cells(const Grid& grid, const std::vector<PrimRef>& refs);
 
 }  // namespace trg

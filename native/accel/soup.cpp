@@ -68,12 +68,6 @@ void pack_blocks(AlignedVector<Block>& blocks, const Block& empty, int threads, 
     });
 }
 
-/// Runs of at most kWidth items each, one a block.
-struct BlockItems {
-    std::vector<int32_t> items;
-    std::vector<int64_t> begin;   // one more than there are blocks
-};
-
 void pack_soup(Soup& soup, const Source& source, const BlockItems& runs,
                const SoupSettings& settings) {
     const auto put = [&](auto& block, int64_t k) {
@@ -92,36 +86,17 @@ void pack_soup(Soup& soup, const Source& source, const BlockItems& runs,
     }
 }
 
-BlockItems runs_of_tree(const Tree& tree, const std::vector<PrimRef>& refs) {
+BlockItems runs_of_leaves(const std::vector<LeafRange>& leaves, const std::vector<PrimRef>& refs) {
     BlockItems runs;
     runs.items.reserve(refs.size());
     runs.begin.assign(1, 0);
-    for (const LeafRange& leaf : tree.leaves) {
+    for (const LeafRange& leaf : leaves) {
         for (int32_t k = 0; k < leaf.count; ++k)
             runs.items.push_back(refs[leaf.begin + k].item);
         // Ascending items make the first of equal hits the one that counts.
         std::sort(runs.items.end() - leaf.count, runs.items.end());
         runs.begin.push_back(static_cast<int64_t>(runs.items.size()));
     }
-    return runs;
-}
-
-void cut_into_runs(BlockItems& runs, int64_t first, int64_t last) {
-    for (int64_t at = first; at < last; at += kWidth)
-        runs.begin.push_back(std::min<int64_t>(at + kWidth, last));
-}
-
-BlockItems runs_of_grid(Grid& grid, const std::vector<PrimRef>& refs) {
-    CellLists lists = list_cells(grid, refs);
-    BlockItems runs;
-    runs.begin.assign(1, 0);
-    grid.cell_begin.assign(1, 0);
-    for (size_t cell = 0; cell + 1 < lists.begin.size(); ++cell) {
-        cut_into_runs(runs, lists.begin[cell], lists.begin[cell + 1]);
-        grid.cell_begin.push_back(static_cast<uint32_t>(runs.begin.size() - 1));
-    }
-    runs.items = std::move(lists.items);
-    for (int32_t& item : runs.items) item = refs[item].item;
     return runs;
 }
 
@@ -133,24 +108,34 @@ BlockItems runs_of_all(const std::vector<PrimRef>& refs) {
     return runs;
 }
 
+BlockItems index_refs(Soup& soup, std::vector<PrimRef>& refs, int threads) {
+    BlockItems runs;
+    switch (soup.accel) {
+        case AccelKind::grid:
+        case AccelKind::grid2:
+            return build_grid(refs, soup.bounds, soup.accel == AccelKind::grid2, threads, &soup.grid);
+        case AccelKind::tree:
+            soup.pairs = build_pair_tree(refs);
+            runs = runs_of_leaves(soup.pairs.leaves, refs);
+            soup.pairs.leaves = {};
+            return runs;
+        case AccelKind::bvh:
+            soup.tree = build_tree(refs, {kWidth, threads});
+            runs = runs_of_leaves(soup.tree.leaves, refs);
+            soup.tree.leaves = {};
+            return runs;
+        default:
+            return runs_of_all(refs);
+    }
+}
+
 void index_soup(Soup& soup, const Source& source, const SoupSettings& settings) {
     std::vector<PrimRef> refs = gather_refs(source, settings.threads);
-    soup.accel = settings.accel;
     soup.triangles = static_cast<int64_t>(refs.size());
     soup.degenerate = source.count - soup.triangles;
     for (const PrimRef& ref : refs) soup.bounds = united(soup.bounds, box_of(ref));
-    BlockItems runs;
-    if (refs.empty() || settings.accel == AccelKind::none) {
-        soup.accel = AccelKind::none;
-        runs = runs_of_all(refs);
-    } else if (settings.accel == AccelKind::grid) {
-        soup.grid = lay_grid(soup.bounds, soup.triangles);
-        runs = runs_of_grid(soup.grid, refs);
-    } else {
-        soup.tree = build_tree(refs, {kWidth, settings.threads});
-        runs = runs_of_tree(soup.tree, refs);
-        soup.tree.leaves = {};
-    }
+    soup.accel = refs.empty() ? AccelKind::none : settings.accel;
+    const BlockItems runs = index_refs(soup, refs, settings.threads);
     refs = {};
     pack_soup(soup, source, runs, settings);
 }
@@ -159,6 +144,11 @@ void index_soup(Soup& soup, const Source& source, const SoupSettings& settings) 
 
 Soup build_mesh_soup(const Mesh& mesh, const SoupSettings& settings) {
     Soup soup;
+    soup.shape = mesh.shape;
+    if (mesh.shape != Shape::triangles) {
+        if (mesh.shape == Shape::sphere) soup.bounds = {{-1, -1, -1}, {1, 1, 1}};
+        return soup;
+    }
     const auto count = static_cast<int64_t>(mesh.triangles.size());
     index_soup(soup, {nullptr, nullptr, &mesh, count}, settings);
     return soup;
@@ -177,12 +167,19 @@ Soup build_merged_soup(const World& world, const std::vector<int32_t>& instances
     return soup;
 }
 
+int64_t soup_nodes(const Soup& soup) {
+    return static_cast<int64_t>(soup.tree.nodes.size() + soup.pairs.nodes.size()) +
+           std::max<int64_t>(0, static_cast<int64_t>(soup.grid.cell_begin.size()) - 1);
+}
+
 int64_t soup_bytes(const Soup& soup) {
-    return static_cast<int64_t>(soup.tree.nodes.size() * sizeof(WideNode) +
-                                soup.corner_blocks.size() * sizeof(CornerBlock) +
-                                soup.plane_blocks.size() * sizeof(PlaneBlock) +
-                                soup.origins.size() * sizeof(PrimOrigin) +
-                                soup.grid.cell_begin.size() * sizeof(uint32_t));
+    const GridIndex& grid = soup.grid;
+    return static_cast<int64_t>(
+        soup.tree.nodes.size() * sizeof(WideNode) + soup.pairs.nodes.size() * sizeof(PairNode) +
+        soup.corner_blocks.size() * sizeof(CornerBlock) +
+        soup.plane_blocks.size() * sizeof(PlaneBlock) + soup.origins.size() * sizeof(PrimOrigin) +
+        grid.cell_begin.size() * sizeof(uint32_t) + grid.inner.size() * sizeof(Grid) +
+        grid.inner_of_cell.size() * sizeof(int32_t));
 }
 
 }  // namespace trg

@@ -1,7 +1,8 @@
 /// Triangles gathered under one index: those of one mesh, or of many meshes placed where they are.
 #pragma once
 
-#include "accel/grid.h"
+#include "accel/grid_build.h"
+#include "accel/pair_tree.h"
 #include "accel/tree_build.h"
 #include "accel/triangle_block.h"
 
@@ -13,12 +14,15 @@ struct PrimOrigin {
     int32_t triangle;
 };
 
-/// Blocks of one of the two kinds under a tree, a grid, or nothing (every block is tried).
+/// Blocks of one of the two kinds under one of the indices, or under nothing (every block is tried).
+/// A soup of another shape than triangles is that shape alone and has none of them.
 /// `prim` of a block is a triangle's index, or an index into `origins` when that is not empty.
 struct Soup {
+    Shape shape = Shape::triangles;
     AccelKind accel = AccelKind::none;
     Tree tree;
-    Grid grid;
+    PairTree pairs;
+    GridIndex grid;
     AlignedVector<CornerBlock> corner_blocks;
     AlignedVector<PlaneBlock> plane_blocks;
     std::vector<PrimOrigin> origins;
@@ -33,13 +37,15 @@ struct SoupSettings {
     int threads;
 };
 
-/// The soup of one mesh in its own space.
+/// The soup of one mesh or other shape in its own space.
 Soup build_mesh_soup(const Mesh& mesh, const SoupSettings& settings);
 
 /// The soup of the given instances, all of which have the identity transform.
 Soup build_merged_soup(const World& world, const std::vector<int32_t>& instances,
                        const SoupSettings& settings);
 
+/// Nodes of the soup's tree, or cells of its grids.
+int64_t soup_nodes(const Soup& soup);
 int64_t soup_bytes(const Soup& soup);
 
 }  // namespace trg

@@ -1,8 +1,10 @@
 /// Tracing of batches of rays; compiled once per instruction set.
 #include "accel/kernels.h"
 #include "accel/test_classic.h"
+#include "accel/test_shape.h"
 #include "accel/test_watertight.h"
 #include "accel/walk_grid.h"
+#include "accel/walk_pairs.h"
 #include "accel/walk_tree.h"
 
 namespace trg::TRG_ISA {
@@ -20,7 +22,9 @@ TRG_FN const PlaneBlock* blocks_of(const Soup& soup, const PlaneBlock*) {
 template <bool kSorted, class Block, class Visit>
 TRG_FN bool walk_soup(const Soup& soup, const TracedRay& ray, const float* limit, Visit visit) {
     if (soup.accel == AccelKind::bvh) return walk_tree<kSorted>(soup.tree, ray, limit, visit);
-    if (soup.accel == AccelKind::grid) return walk_grid(soup.grid, ray, limit, visit);
+    if (soup.accel == AccelKind::grid || soup.accel == AccelKind::grid2)
+        return walk_grid(soup.grid, ray, limit, visit);
+    if (soup.accel == AccelKind::tree) return walk_pairs(soup.pairs, ray, limit, visit);
     const size_t count = soup.corner_blocks.size() + soup.plane_blocks.size();
     for (size_t k = 0; k < count; ++k)
         if (visit(static_cast<uint32_t>(k))) return true;
@@ -44,31 +48,24 @@ TRG_FN bool soup_hides(const Soup& soup, const TracedRay& ray, float t_max) {
                                    [&](uint32_t k) { return test_any(blocks[k], ray, t_max); });
 }
 
-/// `v` times the linear part of the placement's inverse map.
-TRG_FN Vec3 into_placement(const Placement& placement, Vec3d v) {
-    const auto& m = placement.inverse;
-    return to_float({m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
-                     m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-                     m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z});
-}
-
 /// The ray in the space of a placed soup; distances stay what they are.
 TRG_FN TracedRay enter_placement(const Placement& placement, const TracedRay& ray) {
-    const auto& t = placement.translation;
-    return prepare_ray(into_placement(placement, ray.origin_d - Vec3d{t[0], t[1], t[2]}),
-                       into_placement(placement, ray.direction_d), ray.t_min);
+    return prepare_ray(to_float(point_into(placement.into, ray.origin_d)),
+                       to_float(vector_into(placement.into, ray.direction_d)), ray.t_min);
 }
 
 template <class Block>
 TRG_FN void search_placement(const Placement& placement, const TracedRay& ray, Search& search) {
     search.current = &placement;
-    if (placement.identity) search_soup<Block>(*placement.soup, ray, search);
+    if (placement.soup->shape != Shape::triangles) test_closest(placement, ray, search);
+    else if (placement.identity) search_soup<Block>(*placement.soup, ray, search);
     else search_soup<Block>(*placement.soup, enter_placement(placement, ray), search);
 }
 
 template <class Block>
 TRG_FN void search_world(const WorldIndex& index, const TracedRay& ray, Search& search) {
     const Placement* placements = index.placements.data();
+    for (const Placement& plane : index.unbounded) search_placement<Block>(plane, ray, search);
     if (index.placements.size() == 1) return search_placement<Block>(*placements, ray, search);
     walk_tree<true>(index.top, ray, &search.limit, [&](uint32_t k) {
         search_placement<Block>(placements[k], ray, search);
@@ -80,9 +77,12 @@ template <class Block>
 TRG_FN bool world_hides(const WorldIndex& index, const TracedRay& ray, float t_max) {
     const auto visit = [&](uint32_t k) {
         const Placement& placement = index.placements[k];
+        if (placement.soup->shape != Shape::triangles) return test_any(placement, ray, t_max);
         if (placement.identity) return soup_hides<Block>(*placement.soup, ray, t_max);
         return soup_hides<Block>(*placement.soup, enter_placement(placement, ray), t_max);
     };
+    for (const Placement& plane : index.unbounded)
+        if (test_any(plane, ray, t_max)) return true;
     if (index.placements.size() == 1) return visit(0);
     const float limit = t_max * kFarFactor;
     return walk_tree<false>(index.top, ray, &limit, visit);
@@ -110,22 +110,32 @@ TRG_FN ScaledRay scale_ray(Ray ray) {
 }
 
 template <class Block>
+TRG_FN Barycentrics hit_coordinates(const Search& search, const Placement& placement,
+                                    const TracedRay& ray) {
+    if (!search.block) return coordinates_of(placement, ray, search.t);
+    const Block& block = *static_cast<const Block*>(search.block);
+    if (placement.identity) return coordinates_of(block, search.lane, ray);
+    return coordinates_of(block, search.lane, enter_placement(placement, ray));
+}
+
+template <class Block>
 TRG_FN Hit resolve_hit(const Search& search, const TracedRay& ray, float scale) {
     if (search.prim < 0) return no_hit();
     const Placement& placement = *search.placement;
-    const Block& block = *static_cast<const Block*>(search.block);
-    const Barycentrics at =
-        placement.identity ? coordinates_of(block, search.lane, ray)
-                           : coordinates_of(block, search.lane, enter_placement(placement, ray));
+    const Barycentrics at = hit_coordinates<Block>(search, placement, ray);
     const PrimOrigin origin = origin_of(placement, search.prim);
     const float t = search.t / scale;
     if (!(t < HUGE_VALF)) return no_hit();
     return {t, at.u, at.v, origin.triangle, origin.instance};
 }
 
+TRG_FN bool is_empty(const WorldIndex& index) {
+    return index.placements.empty() && index.unbounded.empty();
+}
+
 template <class Block>
 TRG_FN Hit closest_hit(const WorldIndex& index, const Ray& ray) {
-    if (!is_traceable(ray) || index.placements.empty()) return no_hit();
+    if (!is_traceable(ray) || is_empty(index)) return no_hit();
     const ScaledRay scaled = scale_ray(ray);
     const TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
     Search search = start_search(scaled.ray.t_max);
@@ -135,7 +145,7 @@ TRG_FN Hit closest_hit(const WorldIndex& index, const Ray& ray) {
 
 template <class Block>
 TRG_FN bool is_hidden(const WorldIndex& index, const Ray& ray) {
-    if (!is_traceable(ray) || index.placements.empty()) return false;
+    if (!is_traceable(ray) || is_empty(index)) return false;
     const ScaledRay scaled = scale_ray(ray);
     const TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
     return world_hides<Block>(index, traced, scaled.ray.t_max);

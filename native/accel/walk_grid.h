@@ -6,10 +6,16 @@
 
 namespace trg::TRG_ISA {
 
+/// Along one axis, plane k is met at start + k step.
+struct PlaneDistances {
+    double start, step;
+};
+
 struct GridWalk {
     double entry, exit;   // where the ray enters and leaves the grid's box
+    PlaneDistances planes[3];
     int cell[3];
-    int step[3];
+    int forward[3];       // 1, or -1 where the direction is negative
     double next[3];       // distance to the next plane along each axis
 };
 
@@ -17,14 +23,9 @@ TRG_FN double component(const Vec3d& v, int axis) {
     return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
 }
 
-TRG_FN double plane_distance(const Grid& grid, const TracedRay& ray, int axis, int plane) {
-    const double at = grid.low[axis] + plane * grid.cell[axis];
-    return (at - component(ray.origin_d, axis)) / component(ray.direction_d, axis);
-}
-
-TRG_FN double next_distance(const Grid& grid, const TracedRay& ray, const GridWalk& walk, int axis) {
-    if (ray.direction[axis] == 0) return HUGE_VAL;
-    return plane_distance(grid, ray, axis, walk.cell[axis] + (walk.step[axis] > 0 ? 1 : 0));
+TRG_FN double next_distance(const GridWalk& walk, int axis) {
+    const int plane = walk.cell[axis] + (walk.forward[axis] > 0 ? 1 : 0);
+    return walk.planes[axis].start + plane * walk.planes[axis].step;
 }
 
 /// Puts `walk` at the first cell; false when the ray passes the grid by.
@@ -32,8 +33,13 @@ TRG_FN bool enter_grid(const Grid& grid, const TracedRay& ray, float limit, Grid
     walk->entry = ray.t_min;
     walk->exit = limit;
     for (int axis = 0; axis < 3; ++axis) {
-        double near = plane_distance(grid, ray, axis, ray.sign[axis] ? grid.size[axis] : 0);
-        double far = plane_distance(grid, ray, axis, ray.sign[axis] ? 0 : grid.size[axis]);
+        const double inverse = 1.0 / component(ray.direction_d, axis);
+        const double start = (grid.low[axis] - component(ray.origin_d, axis)) * inverse;
+        const double step = grid.cell[axis] * inverse;
+        walk->planes[axis] = {start, step};
+        const double end = start + grid.size[axis] * step;
+        const double near = ray.sign[axis] ? end : start, far = ray.sign[axis] ? start : end;
+        // Written so that the NaN of a ray along a side of the box changes nothing.
         if (near > walk->entry) walk->entry = near;
         if (far < walk->exit) walk->exit = far;
     }
@@ -44,30 +50,47 @@ TRG_FN bool enter_grid(const Grid& grid, const TracedRay& ray, float limit, Grid
         const double cell = std::floor(at / grid.cell[axis]);
         const double most = grid.size[axis] - 1;
         walk->cell[axis] = static_cast<int>(cell < 0 ? 0 : cell > most ? most : cell);
-        walk->step[axis] = ray.sign[axis] ? -1 : 1;
-        walk->next[axis] = next_distance(grid, ray, *walk, axis);
+        walk->forward[axis] = ray.sign[axis] ? -1 : 1;
+        if (ray.direction[axis] == 0) walk->planes[axis] = {HUGE_VAL, 0};
+        walk->next[axis] = next_distance(*walk, axis);
     }
     return true;
 }
 
-/// Calls `visit(block)` for the blocks of the cells along the ray until a hit lies before the next
-/// cell (`*limit`, which `visit` lowers). Ends early, with true, when `visit` returns true.
+/// Calls `visit(cell)` for the cells along the ray until a hit lies before the next one (`*limit`,
+/// which `visit` lowers). Ends early, with true, when `visit` returns true.
 template <class Visit>
-TRG_FN bool walk_grid(const Grid& grid, const TracedRay& ray, const float* limit, Visit visit) {
+TRG_FN bool walk_cells(const Grid& grid, const TracedRay& ray, const float* limit, Visit visit) {
     GridWalk walk;
     if (!enter_grid(grid, ray, *limit, &walk)) return false;
     for (;;) {
-        const int64_t cell =
-            (int64_t{walk.cell[2]} * grid.size[1] + walk.cell[1]) * grid.size[0] + walk.cell[0];
-        for (uint32_t k = grid.cell_begin[cell]; k < grid.cell_begin[cell + 1]; ++k)
-            if (visit(k)) return true;
+        if (visit((int64_t{walk.cell[2]} * grid.size[1] + walk.cell[1]) * grid.size[0] + walk.cell[0]))
+            return true;
         int axis = walk.next[0] < walk.next[1] ? 0 : 1;
         if (walk.next[2] < walk.next[axis]) axis = 2;
         if (*limit <= walk.next[axis]) return false;
-        walk.cell[axis] += walk.step[axis];
+        walk.cell[axis] += walk.forward[axis];
         if (walk.cell[axis] < 0 || walk.cell[axis] >= grid.size[axis]) return false;
-        walk.next[axis] = next_distance(grid, ray, walk, axis);
+        walk.next[axis] = next_distance(walk, axis);
     }
+}
+
+/// Calls `visit(block)` for the blocks of the cells along the ray, those of finer grids included.
+template <class Visit>
+TRG_FN bool walk_grid(const GridIndex& index, const TracedRay& ray, const float* limit, Visit visit) {
+    const auto visit_blocks = [&](int64_t cell) {
+        for (uint32_t k = index.cell_begin[cell]; k < index.cell_begin[cell + 1]; ++k)
+            if (visit(k)) return true;
+        return false;
+    };
+    if (index.inner.empty()) return walk_cells(index.outer, ray, limit, visit_blocks);
+    return walk_cells(index.outer, ray, limit, [&](int64_t cell) {
+        const int32_t inner = index.inner_of_cell[cell];
+        if (inner < 0) return visit_blocks(cell);
+        const Grid& grid = index.inner[inner];
+        return walk_cells(grid, ray, limit,
+                          [&](int64_t part) { return visit_blocks(grid.first_cell + part); });
+    });
 }
 
 }  // namespace trg::TRG_ISA

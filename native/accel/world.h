@@ -11,14 +11,18 @@
 
 namespace trg {
 
-enum class AccelKind { automatic, bvh, grid, none };
+enum class AccelKind { automatic, bvh, grid, grid2, tree, none };
 enum class TriangleTest { watertight, classic };
 
 struct Triangle {
     int32_t vertex[3];
 };
 
+/// What a mesh is: its triangles, the unit sphere round the origin, or the infinite plane z = 0.
+enum class Shape { triangles, sphere, plane };
+
 struct Mesh {
+    Shape shape = Shape::triangles;
     std::vector<Vec3> vertices;
     std::vector<Triangle> triangles;
 };
@@ -53,7 +57,8 @@ struct World {
     std::shared_ptr<const WorldIndex> index;
 };
 
-/// Adds a mesh (indices must lie within `vertices`); it shows only through instances.
+/// Adds a mesh (indices must lie within `vertices`; none are looked at where `shape` is not
+/// triangles); it shows only through instances.
 int add_mesh(World& world, Mesh mesh);
 
 /// Adds a copy of `mesh` placed by `object_to_world`, whose determinant must not be zero.

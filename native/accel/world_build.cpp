@@ -48,19 +48,7 @@ AccelKind choose_accel(const World& world, std::string* reason) {
 }
 
 Placement place_soup(const Soup& soup, int32_t number, const Instance& instance) {
-    Placement placement{&soup, number, instance.identity, {}, {}};
-    const auto& m = instance.object_to_world.m;
-    const Vec3d r0{m[0][0], m[0][1], m[0][2]}, r1{m[1][0], m[1][1], m[1][2]};
-    const Vec3d r2{m[2][0], m[2][1], m[2][2]};
-    const double scale = 1.0 / dot(r0, cross(r1, r2));
-    const Vec3d c[3] = {cross(r1, r2) * scale, cross(r2, r0) * scale, cross(r0, r1) * scale};
-    for (int k = 0; k < 3; ++k) {
-        placement.inverse[0][k] = c[k].x;
-        placement.inverse[1][k] = c[k].y;
-        placement.inverse[2][k] = c[k].z;
-        placement.translation[k] = m[k][3];
-    }
-    return placement;
+    return {&soup, number, instance.identity, inverse_map(instance.object_to_world)};
 }
 
 float rounded_down(double x) {
@@ -73,9 +61,29 @@ float rounded_up(double x) {
     return nearest < x ? std::nextafter(nearest, HUGE_VALF) : nearest;
 }
 
+Bounds rounded_outwards(const double low[3], const double high[3]) {
+    return {{rounded_down(low[0]), rounded_down(low[1]), rounded_down(low[2])},
+            {rounded_up(high[0]), rounded_up(high[1]), rounded_up(high[2])}};
+}
+
+/// The box in the world of the unit sphere placed by `instance`.
+Bounds sphere_bounds(const Instance& instance) {
+    double low[3], high[3];
+    for (int row = 0; row < 3; ++row) {
+        const float* m = instance.object_to_world.m[row];
+        const Vec3d v{m[0], m[1], m[2]};
+        const double reach = std::sqrt(dot(v, v)) * (1 + 0x1p-40);
+        low[row] = m[3] - reach;
+        high[row] = m[3] + reach;
+    }
+    return rounded_outwards(low, high);
+}
+
 /// The box in the world of a soup placed by `instance`, widened by what rounding a ray into the
 /// soup's space can move it.
-Bounds placed_bounds(const Bounds& box, const Instance& instance) {
+Bounds placed_bounds(const Soup& soup, const Instance& instance) {
+    if (soup.shape == Shape::sphere) return sphere_bounds(instance);
+    const Bounds& box = soup.bounds;
     if (instance.identity || is_empty(box)) return box;
     const double lo[3] = {box.lo.x, box.lo.y, box.lo.z}, hi[3] = {box.hi.x, box.hi.y, box.hi.z};
     double low[3], high[3];
@@ -92,8 +100,7 @@ Bounds placed_bounds(const Bounds& box, const Instance& instance) {
         low[row] -= size * 0x1p-21;
         high[row] += size * 0x1p-21;
     }
-    return {{rounded_down(low[0]), rounded_down(low[1]), rounded_down(low[2])},
-            {rounded_up(high[0]), rounded_up(high[1]), rounded_up(high[2])}};
+    return rounded_outwards(low, high);
 }
 
 /// Instances whose mesh nobody else uses and that stand where the mesh is, and all the others.
@@ -107,7 +114,8 @@ Shares share_instances(const World& world) {
     Shares shares;
     for (size_t k = 0; k < world.instances.size(); ++k) {
         const Instance& instance = world.instances[k];
-        const bool merge = instance.identity && uses[instance.mesh] == 1;
+        const bool merge = instance.identity && uses[instance.mesh] == 1 &&
+                           world.meshes[instance.mesh].shape == Shape::triangles;
         (merge ? shares.merged : shares.placed).push_back(static_cast<int32_t>(k));
     }
     return shares;
@@ -132,7 +140,7 @@ void add_merged(Assembly& assembly, const std::vector<int32_t>& instances) {
     } else {
         *soup = build_merged_soup(assembly.world, instances, assembly.settings);
     }
-    assembly.placements.push_back({soup.get(), number, true, {}, {}});
+    assembly.placements.push_back({soup.get(), number, true, {}});
     assembly.boxes.push_back(soup->bounds);
     assembly.index.soups.push_back(std::move(soup));
 }
@@ -148,9 +156,13 @@ void add_placed(Assembly& assembly, const std::vector<int32_t>& instances) {
             assembly.index.soups.push_back(std::move(soup));
         }
         const Soup& soup = *soup_of[instance.mesh];
-        if (soup.triangles == 0) continue;
+        if (soup.shape == Shape::plane) {
+            assembly.index.unbounded.push_back(place_soup(soup, number, instance));
+            continue;
+        }
+        if (is_empty(soup.bounds)) continue;
         assembly.placements.push_back(place_soup(soup, number, instance));
-        assembly.boxes.push_back(placed_bounds(soup.bounds, instance));
+        assembly.boxes.push_back(placed_bounds(soup, instance));
     }
 }
 
@@ -171,14 +183,15 @@ void build_top(Assembly& assembly) {
 
 void count_up(const WorldIndex& index, BuildStats* stats) {
     for (const auto& soup : index.soups) {
-        stats->nodes += static_cast<int64_t>(soup->tree.nodes.size());
+        stats->nodes += soup_nodes(*soup);
         stats->triangles += soup->triangles;
         stats->degenerate_triangles += soup->degenerate;
         stats->bytes += soup_bytes(*soup);
     }
     stats->nodes += static_cast<int64_t>(index.top.nodes.size());
     stats->bytes += static_cast<int64_t>(index.top.nodes.size() * sizeof(WideNode) +
-                                         index.placements.size() * sizeof(Placement));
+                                         (index.placements.size() + index.unbounded.size()) *
+                                             sizeof(Placement));
 }
 
 }  // namespace

@@ -6,14 +6,12 @@
 
 namespace trg {
 
-/// A soup placed in the world. The inverse map is kept in double, with the translation apart, so that
-/// a small object far from the origin keeps its precision.
+/// A soup placed in the world.
 struct Placement {
     const Soup* soup;
     int32_t instance;   // -1: a merged soup, whose items tell
     bool identity;
-    double inverse[3][3];
-    double translation[3];
+    InverseMap into;    // from the world to the soup's space
 };
 
 struct WorldIndex {
@@ -21,6 +19,7 @@ struct WorldIndex {
     std::vector<std::unique_ptr<Soup>> soups;
     std::vector<Placement> placements;   // in the order of the leaves of `top`
     Tree top;                            // over placements; unused when there is only one
+    std::vector<Placement> unbounded;    // planes: no box holds them
     Kernels kernels{};
 };
 

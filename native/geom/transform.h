@@ -67,4 +67,38 @@ TRG_FN Transform inverse(const Transform& a) {
     return result;
 }
 
+/// The inverse map in double, with the translation apart, so that a small object far from the
+/// origin keeps its precision.
+struct InverseMap {
+    double m[3][3];
+    double translation[3];
+};
+
+/// The determinant of `a` must not be zero.
+TRG_FN InverseMap inverse_map(const Transform& a) {
+    const Vec3d r0{a.m[0][0], a.m[0][1], a.m[0][2]}, r1{a.m[1][0], a.m[1][1], a.m[1][2]};
+    const Vec3d r2{a.m[2][0], a.m[2][1], a.m[2][2]};
+    const double scale = 1.0 / dot(r0, cross(r1, r2));
+    const Vec3d c[3] = {cross(r1, r2) * scale, cross(r2, r0) * scale, cross(r0, r1) * scale};
+    InverseMap map;
+    for (int k = 0; k < 3; ++k) {
+        map.m[0][k] = c[k].x;
+        map.m[1][k] = c[k].y;
+        map.m[2][k] = c[k].z;
+        map.translation[k] = a.m[k][3];
+    }
+    return map;
+}
+
+TRG_FN Vec3d vector_into(const InverseMap& map, Vec3d v) {
+    const auto& m = map.m;
+    return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z,
+            m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+            m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
+}
+
+TRG_FN Vec3d point_into(const InverseMap& map, Vec3d p) {
+    return vector_into(map, p - Vec3d{map.translation[0], map.translation[1], map.translation[2]});
+}
+
 }  // namespace trg

@@ -56,6 +56,17 @@ void check_slots(const std::vector<int32_t>& slots) {
                                 ", expected 0 or more");
 }
 
+template <Shape kShape>
+PyObject* add_shape_method(PyObject* self, PyObject*) {
+    return guarded_object([&] {
+        Scene& scene = scene_to_change(self);
+        Mesh mesh;
+        mesh.shape = kShape;
+        scene.attributes.emplace_back();
+        return checked(PyLong_FromLong(add_mesh(scene.world, std::move(mesh))));
+    });
+}
+
 PyObject* add_mesh_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         PyObject *vertices, *triangles, *normals = nullptr, *uvs = nullptr, *slots = nullptr;
@@ -153,6 +164,8 @@ const char* accel_name(AccelKind kind) {
     switch (kind) {
         case AccelKind::bvh: return "bvh";
         case AccelKind::grid: return "grid";
+        case AccelKind::grid2: return "grid2";
+        case AccelKind::tree: return "tree";
         case AccelKind::none: return "none";
         default: return "auto";
     }
@@ -185,6 +198,10 @@ PyObject* build_method(PyObject* self, PyObject* args, PyObject* kwargs) {
 PyMethodDef kSceneGeometryMethods[] = {
     {"add_mesh", as_method(add_mesh_method), METH_VARARGS | METH_KEYWORDS,
      "add_mesh(vertices, triangles, normals=None, uvs=None, slots=None) -> mesh index"},
+    {"add_sphere", add_shape_method<Shape::sphere>, METH_NOARGS,
+     "add_sphere() -> mesh index\n\nThe unit sphere round the origin."},
+    {"add_plane", add_shape_method<Shape::plane>, METH_NOARGS,
+     "add_plane() -> mesh index\n\nThe infinite plane z = 0."},
     {"add_instance", as_method(add_instance_method), METH_VARARGS | METH_KEYWORDS,
      "add_instance(mesh, transform=None, slot_materials=None) -> instance index"},
     {"add_instances", as_method(add_instances_method), METH_VARARGS | METH_KEYWORDS,

@@ -15,8 +15,11 @@ AccelKind parse_accel(const char* name) {
     if (std::strcmp(name, "auto") == 0) return AccelKind::automatic;
     if (std::strcmp(name, "bvh") == 0) return AccelKind::bvh;
     if (std::strcmp(name, "grid") == 0) return AccelKind::grid;
+    if (std::strcmp(name, "grid2") == 0) return AccelKind::grid2;
+    if (std::strcmp(name, "tree") == 0) return AccelKind::tree;
     if (std::strcmp(name, "none") == 0) return AccelKind::none;
-    throw ArgumentError("accel: expected auto, bvh, grid or none, got " + std::string(name));
+    throw ArgumentError("accel: expected auto, bvh, grid, grid2, tree or none, got " +
+                        std::string(name));
 }
 
 TriangleTest parse_triangle_test(const char* name) {

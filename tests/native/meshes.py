@@ -15,6 +15,9 @@ SHARED = Path(os.environ.get("TRG_SHARED", Path(__file__).resolve().parents[3] /
 Float32 = NDArray[np.float32]
 Float64 = NDArray[np.float64]
 Int32 = NDArray[np.int32]
+ACCELS = ("none", "bvh", "grid", "grid2", "tree")
+INDICES = ACCELS[1:]
+"""those that build something"""
 
 
 @dataclass(frozen=True)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from .meshes import SHARED, Mesh, brute_force, scene_of
+from .meshes import INDICES, SHARED, Mesh, brute_force, scene_of
 
 COW = SHARED / "data/models/cow.g3dm"
 
@@ -20,7 +20,7 @@ def read_cow() -> Mesh:
 
 
 @pytest.mark.skipif(not COW.exists(), reason="the shared models are not here")
-@pytest.mark.parametrize("accel", ["bvh", "grid"])
+@pytest.mark.parametrize("accel", INDICES)
 def test_the_cow_is_hit_where_embree_hits_it(accel: str):
     rtcore_scene = pytest.importorskip("embreex.rtcore_scene")
     mesh_construction = pytest.importorskip("embreex.mesh_construction")

@@ -1,4 +1,4 @@
-"""The regular grid against brute force in the cases where grids are known to fail."""
+"""The regular grid and the divided one against brute force in the cases where grids are known to fail."""
 
 from __future__ import annotations
 
@@ -11,9 +11,10 @@ from .meshes import cube, icosphere, mesh_of, random_rays, same_hits, scene_of, 
 def check_grid(mesh, origins, directions) -> None:
     expected = scene_of(mesh, "none").intersect(origins, directions)
     assert (expected.triangle >= 0).any()
-    grid = scene_of(mesh, "grid")
-    assert same_hits(grid.intersect(origins, directions), expected)
-    assert np.array_equal(grid.occluded(origins, directions), expected.triangle >= 0)
+    for accel in ("grid", "grid2"):
+        grid = scene_of(mesh, accel)
+        assert same_hits(grid.intersect(origins, directions), expected)
+        assert np.array_equal(grid.occluded(origins, directions), expected.triangle >= 0)
 
 
 def grid_of_points(steps: int) -> np.ndarray:

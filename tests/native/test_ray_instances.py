@@ -7,9 +7,7 @@ import pytest
 
 from trg_blender.engine.native import RayScene
 
-from .meshes import edge_and_vertex_rays, icosphere, mesh_of, random_rays, same_hits, scene_of, soup
-
-ACCELS = ("bvh", "grid", "none")
+from .meshes import ACCELS, edge_and_vertex_rays, icosphere, mesh_of, random_rays, same_hits, scene_of, soup
 
 
 def rotation(seed: int) -> np.ndarray:

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 Float32 = NDArray[np.float32]
 Int32 = NDArray[np.int32]
-ACCELERATORS = ("auto", "bvh", "grid", "none")
+ACCELERATORS = ("auto", "bvh", "grid", "grid2", "tree", "none")
 TRIANGLE_TESTS = ("watertight", "classic")
 
 
@@ -63,7 +63,7 @@ class BuildStats:
     degenerate_triangles: int
     """triangles left out: coordinates not finite or above 1e18, or no area"""
     accel: str
-    """bvh, grid or none"""
+    """bvh, grid, grid2, tree or none"""
     reason: str
     """why this accelerator"""
 
@@ -86,6 +86,21 @@ class RayScene:
             _contiguous("vertices", vertices, np.float32),
             _contiguous("triangles", triangles, np.int32),
         )
+        return mesh
+
+    def add_sphere(self) -> int:
+        """Index of a mesh that is the unit sphere round the origin, met in double precision.
+
+        Its hits have triangle 0; u turns about z from -y towards x, v rises from the lower pole to
+        the upper one, both from 0 to 1.
+        """
+        mesh: int = self._scene.add_sphere()
+        return mesh
+
+    def add_plane(self) -> int:
+        """Index of a mesh that is the infinite plane z = 0. Its hits have triangle 0, and x and y
+        as u and v."""
+        mesh: int = self._scene.add_plane()
         return mesh
 
     def add_instance(self, mesh: int, transform: ArrayLike | None = None) -> int:

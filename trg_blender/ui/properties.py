@@ -13,6 +13,8 @@ ACCELERATORS = (
     ("auto", "Auto", "Chosen by estimated cost"),
     ("bvh", "BVH", "Bounding volume hierarchy built by the surface area heuristic"),
     ("grid", "Grid", "Regular grid walked by 3D-DDA"),
+    ("grid2", "Divided Grid", "Regular grid whose full cells are divided again"),
+    ("tree", "Paper's Tree", "Boxes halved along their longest axis, four triangles a leaf"),
     ("none", "None", "Every ray against every triangle: for tiny scenes and tests"),
 )
 INTEGRATORS = (("path", "Path Tracing", "Unidirectional, with light sampling and Russian roulette"),)

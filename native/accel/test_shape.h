@@ -1,0 +1,51 @@
+/// Ray against a sphere or a plane, in double; every instruction set gives the same bits.
+#pragma once
+
+#include "accel/test_watertight.h"
+#include "accel/traced_ray.h"
+#include "geom/shapes.h"
+
+namespace trg::TRG_ISA {
+
+struct ShapeRay {
+    Vec3d origin, direction;
+};
+
+TRG_FN ShapeRay enter_shape(const Placement& placement, const TracedRay& ray) {
+    if (placement.identity) return {ray.origin_d, ray.direction_d};
+    return {point_into(placement.into, ray.origin_d), vector_into(placement.into, ray.direction_d)};
+}
+
+TRG_FN Roots meet_shape(const Placement& placement, const TracedRay& ray) {
+    const ShapeRay local = enter_shape(placement, ray);
+    if (placement.soup->shape == Shape::sphere) return meet_sphere(local.origin, local.direction);
+    return {meet_plane(local.origin, local.direction), NAN};
+}
+
+TRG_FN void test_closest(const Placement& placement, const TracedRay& ray, Search& search) {
+    const Roots roots = meet_shape(placement, ray);
+    for (const double root : {roots.near, roots.far}) {
+        const auto t = static_cast<float>(root);
+        if (!(t > ray.t_min && improves(search, t, 0))) continue;
+        record_hit(search, t, nullptr, 0, 0);
+        return;
+    }
+}
+
+TRG_FN bool test_any(const Placement& placement, const TracedRay& ray, float t_max) {
+    const Roots roots = meet_shape(placement, ray);
+    const auto near = static_cast<float>(roots.near), far = static_cast<float>(roots.far);
+    return (near > ray.t_min && near < t_max) || (far > ray.t_min && far < t_max);
+}
+
+/// Coordinates on the shape (geom/shapes.h) at distance `t`; of a plane they are its own x and y.
+TRG_FN Barycentrics coordinates_of(const Placement& placement, const TracedRay& ray, float t) {
+    const ShapeRay local = enter_shape(placement, ray);
+    const Vec3d p = local.origin + local.direction * t;
+    if (placement.soup->shape == Shape::plane)
+        return {static_cast<float>(p.x), static_cast<float>(p.y)};
+    const ShapeCoordinates at = sphere_coordinates(p);
+    return {static_cast<float>(at.u), static_cast<float>(at.v)};
+}
+
+}  // namespace trg::TRG_ISA
