@@ -217,9 +217,10 @@ class _Printer:
         """The tokens of a statement or head; the first one's place is made."""
         spacing = Spacing()
         opened: list[int] = []
+        heads: list[int] = []
         for number, part in enumerate(run.parts):
             if isinstance(part, Block):
-                self._function_body(part)
+                self._function_body(part, heads.pop())
                 spacing.after_body(part.closing)
                 continue
             closes = part.kind == "op" and part.text in (")", "]")
@@ -230,6 +231,8 @@ class _Printer:
                 steps = len(set(opened)) or int(not closes)
                 self._place(part, apart, indent + STEP * steps)
             self.out.write(part.text)
+            if part.kind == "keyword" and part.text == "function":
+                heads.append(self.out.indent)
             if part.text in ("(", "[") and part.kind == "op":
                 opened.append(len(self.out.lines))
 
@@ -249,9 +252,9 @@ class _Printer:
         elif apart or (piece.comments and not joins and piece.text != ")"):
             out.write(" ")
 
-    def _function_body(self, block: Block) -> None:
-        """A body behind its parameters when it fits there, else below, as far in as their line."""
-        opening, indent = block.opening, self.out.indent
+    def _function_body(self, block: Block, indent: int) -> None:
+        """A body behind its parameters when it fits there, else below, as far in as `function`'s line."""
+        opening = block.opening
         if fits_one_line(block) and opening.breaks == 0 and not opening.comments:
             self.out.write(" ")
         else:
