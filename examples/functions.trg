@@ -3,7 +3,7 @@
 Scene = scene();
 Scene.Add(plane(vec3(0, 1, 0), 0, material::white_rubber()));
 
-Stair = function( steps = 24 ~ "num", radius = 3 ~ "num" )
+Stair = function(steps = 24 ~ "num", radius = 3 ~ "num")
 {
     for (k = 0; k < steps; k++)
     {
@@ -19,7 +19,7 @@ Stair = function( steps = 24 ~ "num", radius = 3 ~ "num" )
     }
 };
 
-Tree = function( foot ~ "vec3", size ~ "num", depth ~ "num" )
+Tree = function(foot ~ "vec3", size ~ "num", depth ~ "num")
 {
     top = foot + #vec3(0, size, 0);
     #Scene.Add(#conus(foot, size * 0.2, size * 1.3, #material::bronze()));
@@ -41,6 +41,6 @@ for (frame = 0; frame < 12; frame++)
 {
     angle = mth::Degree2Radian(30 * frame);
     Scene.CamSet(800, 600, vec3(10 * mth::sin(angle), 6, 10 * mth::cos(angle)),
-                vec3(0, 2.4, 0), vec3(0, 1, 0));
+        vec3(0, 2.4, 0), vec3(0, 1, 0));
     Scene.Render();
 }

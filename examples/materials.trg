@@ -2,7 +2,7 @@
 Scene = scene();
 Scene.Add(plane(vec3(0, 1, 0), 0, material::white_rubber()));
 
-Row = function( z ~ "num", m1 ~ "material", m2 ~ "material", m3 ~ "material", m4 ~ "material", m5 ~ "material" )
+Row = function(z ~ "num", m1 ~ "material", m2 ~ "material", m3 ~ "material", m4 ~ "material", m5 ~ "material")
 {
     #Scene.Add(#sphere(#vec3(-5, 1, z), 1, m1));
     #Scene.Add(#sphere(#vec3(-2.5, 1, z), 1, m2));

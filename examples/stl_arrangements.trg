@@ -23,7 +23,7 @@ Show(trays[2], arrange::spiral(48, 2.5, 3), 0.16, materials::lacquer(vec3(0.02, 
 Show(trays[3], arrange::helix(60, 1.5, 4, 3), 0.18, materials::lacquer(vec3(0.02, 0.2, 0.5)));
 Show(trays[4], arrange::sunflower(190, 0.185), 0.12, materials::lacquer(vec3(0.85, 0.6, 0.02)));
 Show(trays[5], arrange::scatter(40, vec3(-1.8, 0, -1.8), vec3(1.8, 0, 1.8), 4, 0.36), 0.18,
-     materials::lacquer(vec3(0.3, 0.03, 0.4)));
+    materials::lacquer(vec3(0.3, 0.03, 0.4)));
 
 Scene.Add(dir_light(vec3(-4, 7, 3), vec3(1.2, 1.15, 1.05)));
 Scene.CamSet(960, 540, vec3(0, 17, 18), vec3(0, 0.6, 0.4), vec3(0, 1, 0), 28.5);

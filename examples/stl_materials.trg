@@ -8,8 +8,8 @@ Scene.Background(vec3(0.32, 0.34, 0.38));
 Scene.Add(plane(vec3(0, 1, 0), 0, materials::ceramic(vec3(0.3, 0.31, 0.33))));
 
 finishes = [materials::water(), materials::diamond(), materials::frosted_glass(), materials::tinted_glass(),
-            materials::tinted_mirror(), materials::titanium(), materials::brushed(material::polished_gold(), 0.55),
-            materials::lacquer(), materials::clay(), materials::lamp(2700, 3)];
+    materials::tinted_mirror(), materials::titanium(), materials::brushed(material::polished_gold(), 0.55),
+    materials::lacquer(), materials::clay(), materials::lamp(2700, 3)];
 
 n = 0;
 for (place in arrange::grid(10, 4, 2.5))

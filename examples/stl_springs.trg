@@ -9,7 +9,7 @@ Scene.Background(vec3(0.7, 0.75, 0.85));
 Scene.Add(plane(vec3(0, 1, 0), 0, materials::ceramic(vec3(0.45, 0.43, 0.4))));
 wound = shapes::spring(6, 0.55, 2, 0.07, materials::brushed(materials::nickel(), 0.75));
 colours = [vec3(0.7, 0.03, 0.02), vec3(0.8, 0.25, 0.01), vec3(0.75, 0.6, 0.02), vec3(0.05, 0.4, 0.08),
-           vec3(0.02, 0.3, 0.5), vec3(0.03, 0.06, 0.5), vec3(0.25, 0.03, 0.4)];
+    vec3(0.02, 0.3, 0.5), vec3(0.03, 0.06, 0.5), vec3(0.25, 0.03, 0.4)];
 count = len(colours);
 
 swings = [];

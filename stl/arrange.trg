@@ -96,7 +96,7 @@ arrange::sunflower = function(count = 100 ~ "num", step = 1 ~ "num")
 
 /* A place too near to another is drawn anew, up to 20 times. */
 arrange::scatter = function(count ~ "num", low = vec3(-5, 0, -5) ~ "vec3", high = vec3(5, 0, 5) ~ "vec3",
-                            seed = 1 ~ "num", gap = 0 ~ "num")
+    seed = 1 ~ "num", gap = 0 ~ "num")
 {
     dice = random::make(seed);
     places = [];

@@ -37,7 +37,7 @@ cameras::look = function(loc ~ "vec3", at = vec3(0) ~ "vec3")
 };
 
 cameras::shoot = function(Scene ~ "scene", view ~ "object", width = 640 ~ "num", height = 360 ~ "num",
-                          fov = 53.13010235415598 ~ "num")
+    fov = 53.13010235415598 ~ "num")
 {
     return Scene.CamSet(width, height, view.loc, view.at, view.up, fov);
 };
@@ -99,7 +99,7 @@ cameras::along = function(t ~ "num", points ~ "list", closed = 0 ~ "num")
     if (u < 0) return start + (end - before) * (u / 2);
     if (u > 1) return end + (behind - start) * ((u - 1) / 2);
     return start + ((end - before) * u + (before * 2 - start * 5 + end * 4 - behind) * (u * u)
-                    + (start * 3 - before - end * 3 + behind) * (u * u * u)) / 2;
+        + (start * 3 - before - end * 3 + behind) * (u * u * u)) / 2;
 };
 
 /* Beyond the ends of an open way the last step goes on. */

@@ -111,7 +111,7 @@ materials::kelvin = function(temperature = 6500 ~ "num")
     x = 3 * u / (2 * v);
     z = (2 * u - 8 * v + 4 - 3 * u - 2 * v) / (2 * v);
     colour = vec3(3.2406 * x - 1.5372 - 0.4986 * z, -0.9689 * x + 1.8758 + 0.0415 * z,
-                  0.0557 * x - 0.2040 + 1.0570 * z);
+        0.0557 * x - 0.2040 + 1.0570 * z);
     bright = mth::max(colour.x, mth::max(colour.y, colour.z));
     return vec3(mth::max(0, colour.x), mth::max(0, colour.y), mth::max(0, colour.z)) / bright;
 };

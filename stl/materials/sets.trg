@@ -101,7 +101,7 @@ materials::name = function(n = 0 ~ "num")
     plastics = ["black", "blue", "cyan", "green", "red", "white", "yellow"];
     if (row >= 17) return plastics[row - 17] + "_plastic";
     others = ["emerald", "jade", "obsidian", "pearl", "ruby", "turquoise", "brass", "bronze", "polished_bronze",
-              "chrome", "copper", "polished_copper", "gold", "polished_gold", "pewter", "silver",
-              "polished_silver"];
+        "chrome", "copper", "polished_copper", "gold", "polished_gold", "pewter", "silver",
+        "polished_silver"];
     return others[row];
 };

@@ -25,8 +25,8 @@
 include("stl/group.trg");
 
 shapes::fence = function(radius = 5 ~ "num", height = 1.2 ~ "num", count = 8 ~ "num",
-                         panel = material::white_plastic() ~ "material",
-                         post = material::bronze() ~ "material")
+    panel = material::white_plastic() ~ "material",
+    post = material::bronze() ~ "material")
 {
     whole = group::make();
     whole.Put(fence(vec3(0, height / 2, 0), radius, height, count, panel));

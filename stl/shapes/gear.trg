@@ -43,7 +43,7 @@ shapes::meshed = function(teeth1 ~ "num", turn1 ~ "num", teeth2 ~ "num", heading
 };
 
 shapes::gear = function(teeth = 16 ~ "num", module = 0.25 ~ "num", thickness = 0.4 ~ "num",
-                        mtl = material::brass() ~ "material", hub = material::black_plastic() ~ "material")
+    mtl = material::brass() ~ "material", hub = material::black_plastic() ~ "material")
 {
     teeth = mth::max(6, mth::floor(teeth));
     pitch = shapes::pitch_radius(teeth, module);

@@ -20,7 +20,7 @@
  */
 
 shapes::rod = function(from ~ "vec3", to ~ "vec3", radius = 0.1 ~ "num",
-                       mtl = material::silver() ~ "material")
+    mtl = material::silver() ~ "material")
 {
     bar = cylinder(vec3(0), radius, mth::length(to - from), mtl);
     return shapes::aim(bar, to - from).Move(from);

@@ -27,7 +27,7 @@ include("stl/group.trg");
 include("stl/shapes/rod.trg");
 
 shapes::spring = function(turns = 6 ~ "num", radius = 0.5 ~ "num", height = 2 ~ "num",
-                          wire = 0.06 ~ "num", mtl = material::chrome() ~ "material")
+    wire = 0.06 ~ "num", mtl = material::chrome() ~ "material")
 {
     pieces = mth::max(1, mth::ceil(turns * 36));
     first = shapes::spring_point(0, turns, radius, height, wire);

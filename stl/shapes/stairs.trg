@@ -24,7 +24,7 @@ include("stl/group.trg");
 include("stl/shapes/rod.trg");
 
 shapes::stairs = function(steps = 10 ~ "num", width = 1.5 ~ "num", rise = 0.18 ~ "num",
-                          run = 0.28 ~ "num", mtl = material::white_plastic() ~ "material")
+    run = 0.28 ~ "num", mtl = material::white_plastic() ~ "material")
 {
     whole = group::make();
     for (k = 0; k < steps; k++)
@@ -33,7 +33,7 @@ shapes::stairs = function(steps = 10 ~ "num", width = 1.5 ~ "num", rise = 0.18 ~
 };
 
 shapes::spiral_stairs = function(steps = 16 ~ "num", radius = 1.5 ~ "num", rise = 0.2 ~ "num",
-                                 degrees = 22.5 ~ "num", mtl = material::pewter() ~ "material")
+    degrees = 22.5 ~ "num", mtl = material::pewter() ~ "material")
 {
     whole = group::make();
     rail_height = 0.9;
@@ -57,7 +57,7 @@ shapes::spiral_stairs = function(steps = 16 ~ "num", radius = 1.5 ~ "num", rise 
     {
         angle = -mth::Degree2Radian(k / 3 * degrees);
         here = vec3(radius * 0.95 * mth::cos(angle), (k / 3 + 1) * rise + rail_height,
-                    radius * 0.95 * mth::sin(angle));
+            radius * 0.95 * mth::sin(angle));
         whole.Put(ball.Copy().Move(here));
         if (k > 0)
             whole.Put(shapes::rod(last, here, radius * 0.03, mtl));

@@ -26,16 +26,16 @@ include("stl/group.trg");
 include("stl/random.trg");
 
 shapes::brick_wall = function(length = 4 ~ "num", height = 2 ~ "num",
-                              brick = vec3(0.24, 0.07, 0.115) ~ "vec3",
-                              colour = vec3(0.42, 0.11, 0.06) ~ "vec3", seed = 1 ~ "num")
+    brick = vec3(0.24, 0.07, 0.115) ~ "vec3",
+    colour = vec3(0.42, 0.11, 0.06) ~ "vec3", seed = 1 ~ "num")
 {
     joint = brick.y * 0.2;
     pitch = brick.x + joint;
     rows = mth::max(1, mth::floor(height / (brick.y + joint) + 0.5));
     whole = group::make();
     mortar = box(vec3(-length / 2, 0, -brick.z * 0.42) + vec3(joint, 0, 0),
-                 vec3(length / 2, rows * (brick.y + joint), brick.z * 0.42) - vec3(joint, joint, 0),
-                 material::pbr(vec3(0.6, 0.57, 0.52), 0, 0.1));
+        vec3(length / 2, rows * (brick.y + joint), brick.z * 0.42) - vec3(joint, joint, 0),
+        material::pbr(vec3(0.6, 0.57, 0.52), 0, 0.1));
     whole.Put(mortar);
 
     dice = random::make(seed);

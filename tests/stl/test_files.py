@@ -8,6 +8,7 @@ import pytest
 
 from trg_blender import cli
 from trg_blender.lang import NoFiles, compile_source
+from trg_blender.lang.format import format_source
 
 from .library import EXAMPLES, LIBRARY, ROOT, head_of, run_example, run_text, use_of
 
@@ -66,6 +67,12 @@ def test_names_stand_in_a_space_of_the_library_and_are_told_in_a_head(file: str)
 def test_check_finds_nothing(file: str, capsys: pytest.CaptureFixture[str]):
     assert cli.main(["check", str(ROOT / file)]) == 0
     assert capsys.readouterr().out == ""
+
+
+@pytest.mark.parametrize("file", LIBRARY)
+def test_a_file_has_the_standard_layout(file: str):
+    text = (ROOT / file).read_text(encoding="utf-8")
+    assert format_source(text, file) == text
 
 
 @pytest.mark.parametrize("name", [name for name in EXAMPLES if name.startswith("stl_")])
