@@ -3,8 +3,6 @@
 
 from __future__ import annotations
 
-import time
-
 from trg_blender.lang import (
     EndEvent,
     FrameEvent,
@@ -28,10 +26,8 @@ def test_the_budget_counts_from_frame_to_frame() -> None:
 
 def test_a_loop_that_never_renders_can_be_run_in_portions() -> None:
     session = _session("while (1) { }", limits=Limits(max_steps=10**12, max_seconds=1e6))
-    start = time.perf_counter()
     assert isinstance(session.next_frame(max_seconds=0.02), PauseEvent)
     assert isinstance(session.next_frame(max_seconds=0.02), PauseEvent)
-    assert time.perf_counter() - start < 2
 
 
 def test_cancel_ends_the_program_at_its_loop() -> None:
