@@ -7,6 +7,7 @@ below a limit, so that no later phase can exhaust a stack.
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import get_args
 
 from .source import Span
 
@@ -253,9 +254,9 @@ Expr = (
     Number | String | Path | Unary | Binary | Logic | Assign | Step | Call | Field | Index | ListOf
     | Each | Function
 )  # fmt: skip
-Statement = (
-    ExprStatement | Block | If | While | For | ForEach | Switch | Include | Break | Continue | Return
-)
+Statement = ExprStatement | Block | If | While | For | ForEach | Switch | Include | Break | Continue | Return
+STATEMENTS = get_args(Statement)
+ASSIGNING = (Assign, Step, Each)
 
 
 @dataclass(frozen=True, slots=True)
@@ -323,11 +324,13 @@ def walk_context(statements: tuple[Statement, ...]) -> list[Expr]:
     todo: list[Statement | Expr] = list(reversed(statements))
     while todo:
         node = todo.pop()
-        if isinstance(node, Statement):
+        if isinstance(node, ExprStatement):
+            todo.append(node.value)
+        elif isinstance(node, STATEMENTS):
             expressions, inner = parts_of(node)
-            ordered = sorted((*expressions, *inner), key=lambda n: (n.span.line, n.span.col))
+            ordered = sorted((*expressions, *inner), key=lambda n: n.span)
             todo.extend(reversed(ordered))
         else:
-            found.append(node)
-            todo.extend(reversed(child_expressions(node)))
+            found.append(node)  # type: ignore[arg-type]
+            todo.extend(reversed(child_expressions(node)))  # type: ignore[arg-type]
     return found

@@ -277,7 +277,7 @@ def _global_names(expressions: list[ast.Expr], context: FunctionInfo | None) -> 
     """The globals that a context assigns to."""
     names: dict[str, None] = {}
     for node in expressions:
-        if not isinstance(node, ast.Assign | ast.Step | ast.Each):
+        if not isinstance(node, ast.ASSIGNING):
             continue
         target: ast.Expr = node.target
         if isinstance(target, ast.Field):

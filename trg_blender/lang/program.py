@@ -15,12 +15,15 @@ from .emit import emit_file
 from .emit_expr import ProgramParts
 from .files import FileError, FileResolver, NoFiles
 from .limits import MAX_INCLUDE_DEPTH, MAX_INCLUDES, MAX_SOURCE
+from .memory import collecting_seldom
 from .parse import parse_source
 from .recover import resolve_despite_errors
 from .resolve import FunctionInfo, Resolution, resolve_program
 from .runtime import Site
 from .source import SourceFile, Span
 from .yields import YieldAnalysis
+
+_COLLECT_AFTER = 1_000_000  # a program near its limit takes about so many nodes, and none is garbage
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,7 +129,8 @@ def compile_source(
     bag = DiagnosticBag(language)
     resolver = resolver or NoFiles()
     try:
-        return _compile(SourceFile.from_text(file_name, text), resolver, bag)
+        with collecting_seldom(_COLLECT_AFTER):
+            return _compile(SourceFile.from_text(file_name, text), resolver, bag)
     except RecursionError:
         # The caller's own stack was nearly full: our limits on nesting assume a fresh one.
         bag.add(Notice("E220", Span(file_name, 1, 1, 1, 1), {"limit": "stack"}))
@@ -140,7 +144,7 @@ def _compile(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -> 
     analysis = YieldAnalysis(resolution)
     analysis.run()
     parts = ProgramParts(resolution, analysis, HOST.placed_names)
-    codes = tuple(_compile_file(parts, loader.trees, n) for n in range(len(loader.trees)))
+    codes = tuple(compile_file(parts, loader.trees, n) for n in range(len(loader.trees)))
     return Program(
         main=source.name,
         sources=loader.sources,
@@ -151,7 +155,7 @@ def _compile(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -> 
         strings=parts.strings,
         places=parts.places,
         global_names=tuple(resolution.globals),
-        functions=_facts(resolution),
+        functions=facts_of(resolution),
     )
 
 
@@ -177,7 +181,8 @@ def without_consequences(bag: DiagnosticBag) -> tuple[Diagnostic, ...]:
     )
 
 
-def _compile_file(parts: ProgramParts, trees: list[ast.FileTree], index: int) -> CodeType:
+def compile_file(parts: ProgramParts, trees: list[ast.FileTree], index: int) -> CodeType:
+    """The code of one file: its functions, and `m_<index>`, which runs it."""
     tree = trees[index]
     numbers = {t.name: n for n, t in enumerate(trees)}
     includes = {span: numbers[name] for span, name in tree.includes.items()}
@@ -193,7 +198,8 @@ def _compile_tree(module: py.Module, file_name: str) -> CodeType:
         return compile(module, file_name, "exec", dont_inherit=True)
 
 
-def _facts(resolution: Resolution) -> tuple[FunctionFacts, ...]:
+def facts_of(resolution: Resolution) -> tuple[FunctionFacts, ...]:
+    """What messages say of every function, by its index."""
     ordered = sorted(resolution.functions.values(), key=lambda info: info.index)
     return tuple(FunctionFacts(i.name, _wanted(i), i.takes_self) for i in ordered)
 

@@ -107,7 +107,7 @@ class _Resolver:
         for node in expressions:
             if isinstance(node, ast.Function):
                 self._collect_function(node, file, context)
-            elif isinstance(node, ast.Assign | ast.Step | ast.Each):
+            elif isinstance(node, ast.ASSIGNING):
                 self._collect_target(node.target, file, context)
                 if isinstance(node.target, ast.Field):
                     self._note_overload(node.target)

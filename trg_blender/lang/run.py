@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import gc
 import time
 from collections.abc import Generator
 from dataclasses import dataclass
@@ -13,14 +12,13 @@ from .helpers import PAUSE, Helpers
 from .library.mth import Pcg32
 from .library.scene_methods import SceneObject
 from .limits import HostOptions
+from .memory import collecting_seldom
 from .program import Program
 from .runtime import CALL_LEVELS, Runtime
 from .scene import SceneDescription
 from .values import TrgError
 
 _COLLECT_AFTER = 10_000
-"""New objects between two searches for cycles. Scenes are made of many objects that stay: at Python's
-own 700 the searches take half of the time."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,16 +80,13 @@ class Session:
         if self._end is not None:
             return self._end
         until = None if max_seconds is None else time.perf_counter() + max_seconds
-        thresholds = gc.get_threshold()
-        gc.set_threshold(max(_COLLECT_AFTER, thresholds[0]), *thresholds[1:])
         try:
-            return self._advance(until)
+            with collecting_seldom(_COLLECT_AFTER):
+                return self._advance(until)
         except StopIteration:
             self._end = EndEvent()
         except Exception as error:  # the border: every fault of a program becomes a diagnostic
             self._end = EndEvent(self._report(error))
-        finally:
-            gc.set_threshold(*thresholds)
         return self._end
 
     def _advance(self, until: float | None) -> FrameEvent | PauseEvent:

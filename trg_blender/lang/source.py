@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 
-@dataclass(frozen=True, slots=True)
-class Span:
-    """A stretch of a source text. Lines and columns are 1-based and count characters."""
+class Span(NamedTuple):
+    """A stretch of a source text. Lines and columns are 1-based and count characters.
+
+    A tuple, since compiling a long program makes and compares hundreds of thousands.
+    """
 
     file: str
     line: int

@@ -11,10 +11,11 @@ from . import ast
 from .resolve import FunctionInfo, Resolution
 
 SUSPENDING_METHOD = "Render"
+_NAMED = (ast.Path, ast.Field)
 
 
 def _last_name(node: ast.Expr) -> str | None:
-    return node.name if isinstance(node, ast.Path | ast.Field) else None
+    return node.name if isinstance(node, _NAMED) else None
 
 
 class YieldAnalysis:
@@ -81,7 +82,7 @@ class YieldAnalysis:
                     continue
                 if isinstance(node, ast.Function):
                     self.escaped = functions[id(node)].yields
-                elif isinstance(node, ast.Path | ast.Field) and node.name in self.names:
+                elif isinstance(node, _NAMED) and node.name in self.names:
                     builtin = isinstance(node, ast.Path) and self.resolution.is_builtin(node, context)
                     self.escaped = not builtin
 
