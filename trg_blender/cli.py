@@ -22,6 +22,7 @@ COMMANDS = {
     "render": "render a TRG program or a .blend file to a picture",
     "run": "run a TRG program alone: its output and diagnostics",
     "check": "diagnostics of a TRG program, one a line",
+    "repl": "TRG line by line",
     "fmt": "TRG programs in the standard layout",
     "doc": "reference of the language and its library, generated",
     "lsp": "language server for editors",

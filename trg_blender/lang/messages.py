@@ -205,6 +205,10 @@ MESSAGES: dict[str, tuple[str, str]] = {
         "unknown {what} '{name}'; the host's own is used",
         "неизвестно: {what} '{name}'; взято то, что задано в программе-хозяине",
     ),
+    "W704": (
+        "'{name}' was entered before what it calls could render; enter it again",
+        "'{name}' введена раньше, чем то, что она вызывает, стало рисовать; введите её ещё раз",
+    ),
     "L801": (
         "this assigns; a condition usually compares",
         "здесь присваивание, а в условии обычно сравнение",
