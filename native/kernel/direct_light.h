@@ -2,7 +2,7 @@
 #pragma once
 
 #include "kernel/path_queues.h"
-#include "kernel/surface.h"
+#include "kernel/shape_surface.h"
 #include "shade/bsdf.h"
 
 namespace trg {
@@ -77,8 +77,7 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v, uint32_
                                 ShadowQueue* queue) {
     const EmitterView& e = scene.emitters;
     const EmissiveTriangle& at = e.triangles[find_share(e.triangle_limits, e.triangle_count, choice)];
-    const float root = std::sqrt(uv.u);
-    const Surface s = make_surface<F>(scene, at, root * (1.0f - uv.v), root * uv.v);
+    const Surface s = sample_emitter<F>(scene, at, uv.u, uv.v);
     const Material& m = scene.materials[s.material];
     const bool in_front = dot(s.outside, v.surface.position - s.position) > 0.0f;
     const Vec3 target = leave_surface(s, in_front ? s.outside : -s.outside);
@@ -87,7 +86,7 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v, uint32_
     const Vec3 wi = to / std::sqrt(d2);
     const float cosine = std::fabs(dot(s.outside, wi));
     if (!(d2 > 0.0f) || !(cosine > 0.0f)) return;
-    const float pdf = e.triangle_density * m.emission_weight * d2 / cosine;
+    const float pdf = e.triangle_density * s.sampling * m.emission_weight * d2 / cosine;
     const BsdfValue f = eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, wi));
     const Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, m, s.u, s.v) *
                        (power_heuristic(pdf, f.pdf) / pdf);

@@ -23,8 +23,10 @@ struct MeshView {
     const float* normals;    // 9 a triangle, or null
     const float* uvs;        // 6 a triangle, or null
     const int32_t* slots;    // 1 a triangle, or null
+    Shape shape;             // none of these where it is not triangles
 };
 
+/// Or triangle 0 of a sphere, which is the sphere.
 struct EmissiveTriangle {
     int32_t instance, triangle;
 };

@@ -42,7 +42,7 @@ TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Ray& r
     if (!(pdf > 0.0f) || !(scene.emitters.triangle_density > 0.0f)) return light;
     const float cosine = std::fabs(dot(s.outside, ray.direction));
     if (!(cosine > 0.0f)) return light;
-    const float density = scene.emitters.triangle_density * m.emission_weight;
+    const float density = scene.emitters.triangle_density * s.sampling * m.emission_weight;
     return light * power_heuristic(pdf, density * t * t / cosine);
 }
 
@@ -123,7 +123,7 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
     }
     if (stage.depth == 0) result.hit = true;
     Vertex v;
-    v.surface = make_surface<F>(scene, {hit.instance, hit.triangle}, hit.u, hit.v);
+    v.surface = surface_of_hit<F>(scene, ray, hit);
     if constexpr (has(F, kExtendedEmitters))
         if (scene.materials[v.surface.material].emission_weight > 0.0f)
             result.radiance = result.radiance +

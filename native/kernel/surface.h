@@ -10,6 +10,7 @@ struct Surface {
     Vec3 outside;      // unit geometric normal on the outer side
     float error;       // how far along the normal the true surface may be
     float u, v;        // texture coordinates
+    float sampling;    // chance of sampling this point for its light, against an even choice by area
     int32_t material;
 };
 
@@ -57,6 +58,7 @@ TRG_FN void prefetch_surface(const SceneView& scene, const Hit& hit) {
 #if defined(__GNUC__)
     if (hit.triangle < 0) return;
     const MeshView& mesh = scene.meshes[scene.instances[hit.instance].mesh];
+    if (mesh.shape != Shape::triangles) return;
     __builtin_prefetch(&mesh.triangles[hit.triangle]);
     if (has(F, kSmoothNormals) && mesh.normals)
         __builtin_prefetch(mesh.normals + static_cast<int64_t>(hit.triangle) * 9);
@@ -70,6 +72,7 @@ TRG_FN void prefetch_corners(const SceneView& scene, const Hit& hit) {
 #if defined(__GNUC__)
     if (hit.triangle < 0) return;
     const MeshView& mesh = scene.meshes[scene.instances[hit.instance].mesh];
+    if (mesh.shape != Shape::triangles) return;
     const Triangle& t = mesh.triangles[hit.triangle];
     for (int32_t corner : t.vertex) __builtin_prefetch(&mesh.vertices[corner]);
 #endif
@@ -95,6 +98,7 @@ TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, 
     s.outside = normalize_safe(cross(e1 * scale, e2 * (1.0f / size)));
     s.error = offset_bound(instance, c, s.position, s.outside);
     s.material = material_of(scene, at);
+    s.sampling = 1.0f;
     s.u = s.v = 0.0f;
     if (has(F, kTextures) && mesh.uvs) {
         const float* uv = mesh.uvs + static_cast<int64_t>(at.triangle) * 6;

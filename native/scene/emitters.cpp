@@ -34,6 +34,12 @@ double world_area(const Scene& scene, const EmissiveTriangle& at) {
     return std::isfinite(area) ? area : 0.0;
 }
 
+/// Of a sphere, that of one as large that was not stretched; the kernel sets it right point by point.
+double sphere_area(const Instance& instance) {
+    const double radius = std::cbrt(std::fabs(determinant(instance.object_to_world)));
+    return 4.0 * kPi * radius * radius;
+}
+
 bool any_slot_emits(const Scene& scene, int32_t instance) {
     const int64_t first = scene.first_slot[instance];
     if (scene.slot_count[instance] == 0)
@@ -58,11 +64,15 @@ double gather_triangles(const Scene& scene, EmitterTables* tables) {
     std::vector<double> weights;
     for (size_t i = 0; i < scene.world.instances.size(); ++i) {
         if (!any_slot_emits(scene, static_cast<int32_t>(i))) continue;
-        const Mesh& mesh = scene.world.meshes[scene.world.instances[i].mesh];
-        for (size_t t = 0; t < mesh.triangles.size(); ++t) {
+        const Instance& instance = scene.world.instances[i];
+        const Mesh& mesh = scene.world.meshes[instance.mesh];
+        if (mesh.shape == Shape::plane) tables->endless = true;
+        const bool sphere = mesh.shape == Shape::sphere;
+        const size_t count = sphere ? 1 : mesh.triangles.size();
+        for (size_t t = 0; t < count; ++t) {
             const EmissiveTriangle at{static_cast<int32_t>(i), static_cast<int32_t>(t)};
             const double weight = scene.tables.materials[material_index(scene, at)].emission_weight *
-                                  world_area(scene, at);
+                                  (sphere ? sphere_area(instance) : world_area(scene, at));
             if (!(weight > 0.0)) continue;
             tables->triangles.push_back(at);
             weights.push_back(weight);

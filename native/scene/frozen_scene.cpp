@@ -18,7 +18,7 @@ FrozenScene::FrozenScene(const Scene& scene) {
         const Mesh& mesh = scene.world.meshes[k];
         const MeshAttributes& a = scene.attributes[k];
         meshes_.push_back({mesh.vertices.data(), mesh.triangles.data(), data_or_null(a.normals),
-                           data_or_null(a.uvs), data_or_null(a.slots)});
+                           data_or_null(a.uvs), data_or_null(a.slots), mesh.shape});
     }
     view_images(scene);
     emitters_ = build_emitters(scene);
@@ -74,7 +74,8 @@ uint32_t FrozenScene::find_features(const Scene& scene) const {
     }
     for (const MeshAttributes& a : scene.attributes)
         if (!a.normals.empty()) features |= kSmoothNormals;
-    if (!emitters_.extended.empty() || !emitters_.triangles.empty()) features |= kExtendedEmitters;
+    if (!emitters_.extended.empty() || !emitters_.triangles.empty() || emitters_.endless)
+        features |= kExtendedEmitters;
     return features;
 }
 
