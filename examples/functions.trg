@@ -1,6 +1,7 @@
 /* Functions and loops: a spiral stair and a tree that calls itself, turned for twelve frames.
    A function sees its parameters and its own variables; #name reaches the global ones. */
 Scene = scene();
+Scene.Background(vec3(0.8, 0.7, 0.6));
 Scene.Add(plane(vec3(0, 1, 0), 0, material::white_rubber()));
 
 Stair = function(steps = 24 ~ "num", radius = 3 ~ "num")
@@ -11,9 +12,9 @@ Stair = function(steps = 24 ~ "num", radius = 3 ~ "num")
         foot = #vec3(radius * #mth::cos(angle), k * 0.25, radius * #mth::sin(angle));
         switch (k % 3)
         {
-            case 0: m = #material::gold(); break;
-            case 1: m = #material::copper(); break;
-            default: m = #material::silver();
+            case 0: m = #material::ruby(); break;
+            case 1: m = #material::jade(); break;
+            default: m = #material::turquoise();
         }
         #Scene.Add(#cylinder(foot, 0.7, 0.2, m));
     }
@@ -40,7 +41,7 @@ Scene.Add(dir_light(vec3(-3, 6, 4), vec3(1, 0.97, 0.9)));
 for (frame = 0; frame < 12; frame++)
 {
     angle = mth::Degree2Radian(30 * frame);
-    Scene.CamSet(800, 600, vec3(10 * mth::sin(angle), 6, 10 * mth::cos(angle)),
-        vec3(0, 2.4, 0), vec3(0, 1, 0));
+    Scene.CamSet(800, 600, vec3(10 * mth::sin(angle), 5, 10 * mth::cos(angle)),
+        vec3(0, 2.6, 0), vec3(0, 1, 0));
     Scene.Render();
 }

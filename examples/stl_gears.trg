@@ -45,7 +45,7 @@ Scene.Add(area_light(vec3(8, 1, 5), vec3(-8, 0, -5), 2, 8, vec3(2, 2.3, 2.8)));
 Scene.Add(dir_light(vec3(-2, 4, 6), vec3(0.7, 0.67, 0.6)));
 for (frame = 0; frame < 180; frame++)
 {
-    Scene.CamSet(960, 540, vec3(1.5, -3, 14), vec3(0.6, -0.35, 0), vec3(0, 1, 0), 37);
+    Scene.CamSet(960, 540, vec3(1.5, -3, 14), vec3(0.6, -0.5, 0), vec3(0, 1, 0), 38.5);
     Scene.Render();
     for (gear in gears)
         gear.wheel.Move(-gear.place).Rotate(axis, gear.speed).Move(gear.place);

@@ -1,5 +1,6 @@
 /* Textures: one image on three shapes; the second argument of texture() repeats it that many times. */
 Scene = scene();
+Scene.Background(vec3(0.8, 0.72, 0.62));
 
 board = material::white_plastic();
 board.SetTexture(texture("chess.g24"), 1);
