@@ -12,10 +12,10 @@ from ..lang import (
     Diagnostic,
     DiskFiles,
     ProgramError,
-    SourceFile,
     compile_source,
     render_diagnostic,
 )
+from .language import add_language, chosen_language
 from .run import DONE, WRONG, diagnostic_object, read_program
 
 
@@ -26,22 +26,24 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     )
     parser.add_argument("file", metavar="FILE.trg")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
+    add_language(parser)
 
 
 def run(args: argparse.Namespace) -> int:
     """Exit code 1 when there is an error, else 0. OSError when the file cannot be read."""
     name, text = read_program(args.file)
-    sources = {name: SourceFile.from_text(name, text)}
+    files = DiskFiles(Path(args.file).resolve().parent)
     try:
-        program = compile_source(text, name, DiskFiles(Path(args.file).resolve().parent))
+        program = compile_source(text, name, files, chosen_language(args.lang))
         diagnostics, sources = program.diagnostics, program.sources
     except ProgramError as error:
-        diagnostics = error.diagnostics
+        diagnostics, sources = error.diagnostics, error.sources
+    shown = [_shown(d) for d in diagnostics]
     if args.json:
-        found = {"diagnostics": [diagnostic_object(d) for d in diagnostics]}
+        found = {"diagnostics": [diagnostic_object(d) for d in shown]}
         sys.stdout.write(json.dumps(found, ensure_ascii=False) + "\n")
     else:
-        sys.stdout.writelines(render_diagnostic(_shown(d), sources) + "\n" for d in diagnostics)
+        sys.stdout.writelines(render_diagnostic(d, sources) + "\n" for d in shown)
     return WRONG if any(d.severity == "error" for d in diagnostics) else DONE
 
 

@@ -20,6 +20,7 @@ from ..lang import (
     render_diagnostic,
 )
 from ..lang.files import bundled_library
+from .language import add_language, chosen_language
 
 DONE, WRONG, OUT_OF_BUDGET = 0, 1, 3
 
@@ -36,6 +37,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--max-steps", type=positive, default=Limits().max_steps, metavar="N",
         help="steps allowed for one frame (%(default)s)",
     )  # fmt: skip
+    add_language(parser)
 
 
 def positive(text: str) -> int:
@@ -49,14 +51,14 @@ def positive(text: str) -> int:
 def run(args: argparse.Namespace) -> int:
     """Exit code 0 done, 1 the program is wrong, 3 out of budget. OSError when the file is not there."""
     name, text = read_program(args.file)
-    sources = {name: SourceFile.from_text(name, text)}
-    output: list[str] = []
+    language = chosen_language(args.lang)
     try:
-        program = compile_source(text, name, DiskFiles(Path(args.file).resolve().parent))
+        program = compile_source(text, name, DiskFiles(Path(args.file).resolve().parent), language)
     except ProgramError as error:
-        _show(args.json, output, 0, error.diagnostics, sources)
+        _show(args.json, [], 0, error.diagnostics, error.sources)
         return WRONG
-    options = HostOptions(limits=Limits(max_steps=args.max_steps), frames=args.frames)
+    limits = Limits(max_steps=args.max_steps)
+    options = HostOptions(limits=limits, frames=args.frames, language=language)
     session = Session(program, options)
     frames, out_of_budget = 0, False
     while frames < args.frames:

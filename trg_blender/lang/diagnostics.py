@@ -32,11 +32,17 @@ class Diagnostic:
 
 
 class ProgramError(Exception):
-    """The program cannot be run; `diagnostics` holds every error found, in source order."""
+    """The program cannot be run; `diagnostics` holds every error found, in source order.
 
-    def __init__(self, diagnostics: tuple[Diagnostic, ...]) -> None:
+    `sources` are the texts that they point into, as far as they were read.
+    """
+
+    def __init__(
+        self, diagnostics: tuple[Diagnostic, ...], sources: Mapping[str, SourceFile] | None = None
+    ) -> None:
         super().__init__("; ".join(f"{d.span}: {d.message}" for d in diagnostics[:3]))
         self.diagnostics = diagnostics
+        self.sources = dict(sources or {})
 
 
 @dataclass(frozen=True, slots=True)

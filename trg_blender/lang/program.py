@@ -140,7 +140,7 @@ def compile_source(
 def _compile(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -> Program:
     loader, resolution = understand(source, resolver, bag)
     if bag.error_count:
-        raise ProgramError(without_consequences(bag))
+        raise ProgramError(without_consequences(bag), loader.sources)
     analysis = YieldAnalysis(resolution)
     analysis.run()
     parts = ProgramParts(resolution, analysis, HOST.placed_names)
