@@ -138,7 +138,7 @@ class StatementEmitter:
     def _assign_field(self, target: ast.Field, value: py.expr, span: Span) -> list[py.stmt]:
         """A variable without a value becomes an object, after the value has been computed."""
         emit, holder = self.expressions, target.object
-        if not isinstance(holder, ast.Path):
+        if not isinstance(holder, ast.Path) or emit.is_builtin(holder):
             return [assign(self._target(target), value, span)]
         held = emit.temporary()
         undefined = compare(emit.value(holder), py.Is(), load("u_", span), span)

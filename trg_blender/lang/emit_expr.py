@@ -77,7 +77,7 @@ class ExpressionEmitter:
         span = node.span
         if by_field and span.line != span.end_line:
             span = Span(span.file, span.line, span.col, span.line, span.col + 1)
-        names = tuple(o.name if isinstance(o, ast.Path) else "" for o in operands)
+        names = tuple(o.name if isinstance(o, ast.Path | ast.Field) else "" for o in operands)
         spans = tuple(o.span for o in operands)
         self.parts.sites[span] = Site(node.span, op, spans, names)
 
@@ -252,13 +252,14 @@ class ExpressionEmitter:
     def holder(self, node: ast.Expr) -> py.expr:
         """The object of a field that is assigned to; a variable without a value becomes one."""
         made = self.value(node)
-        if not isinstance(node, ast.Path) or self._is_builtin(node):
+        if not isinstance(node, ast.Path) or self.is_builtin(node):
             return made
         undefined = compare(made, py.Is(), load("u_", node.span), node.span)
         fresh = named(self.variable(node), call("O_", [], node.span), node.span)
         return at(py.IfExp(undefined, fresh, self.value(node)), node.span)
 
-    def _is_builtin(self, path: ast.Path) -> bool:
+    def is_builtin(self, path: ast.Path) -> bool:
+        """Whether `path` means a built-in here."""
         return self.parts.resolution.is_builtin(path, self.context)
 
     def _change_field(self, target: ast.Field, op: str, value: Callable[[], py.expr], span: Span) -> py.expr:
@@ -299,7 +300,7 @@ class ExpressionEmitter:
         callee, span = node.callee, node.span
         operands = (callee, *node.arguments)
         self.site(node, "()", operands)
-        if isinstance(callee, ast.Path) and self._is_builtin(callee):
+        if isinstance(callee, ast.Path) and self.is_builtin(callee):
             return self._call_builtin(node, callee)
         function = self._method(callee) if isinstance(callee, ast.Field) else self.value(callee)
         arguments = [self.value(a) for a in node.arguments]

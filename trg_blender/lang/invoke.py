@@ -133,7 +133,7 @@ def _compile(row: Builtin) -> Callable[..., Invoker] | None:
         test=" and ".join(text.tests) or "True",
     )
     scope: dict[str, object] = {"__builtins__": {}, "type": type, "float": float, **text.scope}
-    scope.update(Vec3=Vec3, Undef=Undef, G=GeneratorType)
+    scope.update(Vec3=Vec3, Undef=Undef, G=GeneratorType, MISSING=_MISSING)
     exec(compile(source, f"<{row.name}>", "exec"), scope)  # noqa: S102 - made of the host table alone
     return scope["make"]  # type: ignore[return-value]
 
@@ -152,7 +152,7 @@ def _test(parameter: HostParameter, name: str, scope: dict[str, object]) -> str 
             tests.append(_vector_test(name, kind == "colour"))
         elif kind in ("any", "anything"):
             undefined = f" and type({name}) is not Undef" if kind == "any" else ""
-            tests.append(f"type({name}) is not G{undefined}")
+            tests.append(f"type({name}) is not G and {name} is not MISSING{undefined}")
         elif kind in classes:
             scope[f"T{kind}"] = classes[kind]
             tests.append(f"type({name}) is T{kind}")

@@ -39,7 +39,7 @@ class Site:
     op: str = ""
     operands: tuple[Span, ...] = ()
     names: tuple[str, ...] = ()
-    """Names of operands that are plain variables, else ""."""
+    """Names of operands that are variables or fields, else ""."""
 
 
 class Place:

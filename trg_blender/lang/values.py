@@ -236,7 +236,7 @@ def compute(op: str, left: object, right: object) -> object:
     undefined = Undef in (type(left), type(right))
     if undefined and rt is not None:
         if Str in (type(left), type(right)):
-            raise TrgError("E411", op=op)
+            raise TrgError("E411") if op == "+" else incomputable(op, type_name(left), type_name(right))
         _warn_operands(rt, left, right)
         numbers = [0.0 if type(value) is Undef else value for value in (left, right)]
         return ARITHMETIC[op](*numbers)

@@ -1,0 +1,1 @@
+x = typeof();   //! E506@5: typeof(

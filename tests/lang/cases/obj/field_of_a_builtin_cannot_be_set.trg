@@ -1,0 +1,2 @@
+f = function() { sphere.x = 1; };   //! E424@18
+f();
