@@ -84,6 +84,17 @@ class _Writer:
         self.listed(self.random.randrange(3), depth)
         self.put(")")
 
+    def _list(self, depth: int) -> None:
+        self.put("[")
+        self.listed(self.random.randrange(3), depth)
+        self.put("]")
+
+    def _index(self, depth: int) -> None:
+        self.target(depth)
+        self.put("[")
+        self.expression(depth)
+        self.put("]")
+
     def _function(self, depth: int) -> None:
         outside, self.in_loop = self.in_loop, 0
         self.put("function", "(")
@@ -154,6 +165,14 @@ class _Writer:
         self.body(depth)
         self.in_loop -= 1
 
+    def _for_each(self, depth: int) -> None:
+        self.put("for", "(", "x1", "in")
+        self.expression(depth)
+        self.put(")")
+        self.in_loop += 1
+        self.body(depth)
+        self.in_loop -= 1
+
     def _switch(self, depth: int) -> None:
         self.put("switch", "(")
         self.expression(depth)
@@ -169,9 +188,12 @@ class _Writer:
         self.put("}")
 
 
-_EXPRESSIONS = ("leaf", "binary", "binary", "group", "sign", "step", "call", "call", "function")
+_EXPRESSIONS = (
+    "leaf", "binary", "binary", "group", "sign", "step", "call", "call", "function", "list", "index",
+)  # fmt: skip
 _STATEMENTS = (
-    "simple", "simple", "empty", "overload", "braces", "leave", "if", "if", "while", "for", "switch",
+    "simple", "simple", "empty", "overload", "braces", "leave", "if", "if", "while", "for", "for_each",
+    "switch",
 )  # fmt: skip
 
 
