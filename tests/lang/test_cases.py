@@ -18,6 +18,7 @@ _ID = re.compile(r"\[([a-z]+/[a-z0-9_]+)\]")
 WITHOUT_CASE = {
     "E609": "the host cancels from outside: tests/lang/test_session.py",
     "E611": "needs a computer without memory",
+    "W704": "belongs to programs entered line by line: trg repl",
     "E900": "stands for a fault of ours that is not known yet",
 }
 """Codes that no program brings up by itself, with the reason."""
