@@ -16,6 +16,7 @@ from ..lang import (
     render_diagnostic,
 )
 from .language import add_language, chosen_language
+from .parameters import SetError, add_set, parameters_of, refuse
 from .run import DONE, WRONG, diagnostic_object, read_program
 
 
@@ -27,15 +28,20 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     parser.add_argument("file", metavar="FILE.trg")
     parser.add_argument("--json", action="store_true", help="print one JSON object")
     add_language(parser)
+    add_set(parser)
 
 
 def run(args: argparse.Namespace) -> int:
-    """Exit code 1 when there is an error, else 0. OSError when the file cannot be read."""
+    """Exit code 1 when there is an error, 2 for a wrong --set, else 0. OSError: the file cannot be read."""
     name, text = read_program(args.file)
     files = DiskFiles(Path(args.file).resolve().parent)
     try:
-        program = compile_source(text, name, files, chosen_language(args.lang))
+        language = chosen_language(args.lang)
+        program = compile_source(text, name, files, language)
+        parameters_of(program, args.settings, language)
         diagnostics, sources = program.diagnostics, program.sources
+    except SetError as error:
+        return refuse(error)
     except ProgramError as error:
         diagnostics, sources = error.diagnostics, error.sources
     shown = [_shown(d) for d in diagnostics]

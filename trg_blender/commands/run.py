@@ -21,6 +21,7 @@ from ..lang import (
 )
 from ..lang.files import bundled_library
 from .language import add_language, chosen_language
+from .parameters import SetError, add_set, parameters_of, refuse
 
 DONE, WRONG, OUT_OF_BUDGET = 0, 1, 3
 
@@ -38,6 +39,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         help="steps allowed for one frame (%(default)s)",
     )  # fmt: skip
     add_language(parser)
+    add_set(parser)
 
 
 def positive(text: str) -> int:
@@ -49,7 +51,10 @@ def positive(text: str) -> int:
 
 
 def run(args: argparse.Namespace) -> int:
-    """Exit code 0 done, 1 the program is wrong, 3 out of budget. OSError when the file is not there."""
+    """Exit code 0 done, 1 the program is wrong, 2 a wrong --set, 3 out of budget.
+
+    OSError when the file is not there.
+    """
     name, text = read_program(args.file)
     language = chosen_language(args.lang)
     try:
@@ -57,8 +62,12 @@ def run(args: argparse.Namespace) -> int:
     except ProgramError as error:
         _show(args.json, [], 0, error.diagnostics, error.sources)
         return WRONG
+    try:
+        parameters = parameters_of(program, args.settings, language)
+    except SetError as error:
+        return refuse(error)
     limits = Limits(max_steps=args.max_steps)
-    options = HostOptions(limits=limits, frames=args.frames, language=language)
+    options = HostOptions(limits=limits, frames=args.frames, language=language, parameters=parameters)
     session = Session(program, options)
     frames, out_of_budget = 0, False
     while frames < args.frames:

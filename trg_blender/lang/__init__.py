@@ -12,15 +12,18 @@ from __future__ import annotations
 from . import library  # noqa: F401  (fills the host table)
 from .bind import HOST
 from .diagnostics import Diagnostic, ProgramError, render_diagnostic
+from .exports import Export
 from .files import DiskFiles, FileError, FileResolver, NoFiles
 from .limits import HostOptions, Limits
+from .parameters import ParameterError, parse_parameter, wrong_parameters
 from .program import Program, compile_source
 from .run import EndEvent, FrameEvent, PauseEvent, Session
 from .scene import SceneDescription
 from .source import SourceFile, Span
 
 __all__ = [
-    "HOST", "Diagnostic", "DiskFiles", "EndEvent", "FileError", "FileResolver", "FrameEvent",
-    "HostOptions", "Limits", "NoFiles", "PauseEvent", "Program", "ProgramError",
-    "SceneDescription", "Session", "SourceFile", "Span", "compile_source", "render_diagnostic",
+    "HOST", "Diagnostic", "DiskFiles", "EndEvent", "Export", "FileError", "FileResolver", "FrameEvent",
+    "HostOptions", "Limits", "NoFiles", "ParameterError", "PauseEvent", "Program", "ProgramError",
+    "SceneDescription", "Session", "SourceFile", "Span", "compile_source", "parse_parameter",
+    "render_diagnostic", "wrong_parameters",
 ]  # fmt: skip

@@ -233,6 +233,20 @@ class Include:
 
 
 @dataclass(frozen=True, slots=True)
+class Export:
+    """`export name = default ~ "type" ~ range(low, high);`: a variable that the host may set.
+
+    `assignment` is the first part; `limits` the call behind the last `~`.
+    """
+
+    span: Span
+    assignment: Assign
+    type_name: str | None
+    type_span: Span | None
+    limits: Call | None
+
+
+@dataclass(frozen=True, slots=True)
 class Break:
     span: Span
 
@@ -254,7 +268,10 @@ Expr = (
     Number | String | Path | Unary | Binary | Logic | Assign | Step | Call | Field | Index | ListOf
     | Each | Function
 )  # fmt: skip
-Statement = ExprStatement | Block | If | While | For | ForEach | Switch | Include | Break | Continue | Return
+Statement = (
+    ExprStatement | Block | If | While | For | ForEach | Switch | Include | Export | Break | Continue
+    | Return
+)  # fmt: skip
 STATEMENTS = get_args(Statement)
 ASSIGNING = (Assign, Step, Each)
 
@@ -313,6 +330,8 @@ def parts_of(node: Statement) -> tuple[tuple[Expr, ...], tuple[Statement, ...]]:
         case Switch():
             values = tuple(case.value for case in node.cases if case.value is not None)
             return (node.subject, *values), tuple(s for case in node.cases for s in case.body)
+        case Export():
+            return (node.assignment,), ()
         case Return(value=value) if value is not None:
             return (value,), ()
     return (), ()

@@ -78,6 +78,8 @@ class StatementEmitter:
                 return self._loop(self._guarded(node.condition, node.body, span), span)
             case ast.For():
                 return self._for(node)
+            case ast.Export():
+                return [self._export(node)]
             case ast.ForEach():
                 return self._for_each(node)
             case ast.Switch():
@@ -149,6 +151,12 @@ class StatementEmitter:
             when(undefined, [fresh], span),
             assign(self._target(target), load(held, span), span),
         ]
+
+    def _export(self, node: ast.Export) -> py.stmt:
+        target, span = node.assignment.target, node.assignment.span
+        assert isinstance(target, ast.Path)
+        value = call("V_", [constant(target.name, span)], span)
+        return assign(store(self.expressions.variable(target), span), value, span)
 
     # Branches and loops.
 

@@ -7,6 +7,7 @@ from itertools import compress
 from types import FunctionType, GeneratorType
 
 from .bind import HOST, make_invoker
+from .exports import parameter_value
 from .lists import List
 from .runtime import Place, Runtime
 from .values import Obj, Str, TrgError, Undef, trg_frame, type_name
@@ -41,7 +42,7 @@ class Helpers:
             B_=self.set_after, E_=self.set_field, D_=self.is_defined, F_=self.function, L_=rt.compare,
             M_=self.method, N_=rt.logical_not, O_=rt.new_object, R_=self.missing, W_=self.check_type,
             Z_=self.counted, K_=rt.ticks(), C_=compress, H_=self.new_list, I_=self.elements,
-            J_=self.set_element, Q_=next,
+            J_=self.set_element, Q_=next, V_=self.parameter,
         )  # fmt: skip
         return made
 
@@ -63,6 +64,14 @@ class Helpers:
         """`holder[index] = value` as an expression."""
         holder[index] = value  # type: ignore[index]
         return value
+
+    def parameter(self, name: str) -> object:
+        """The host's value of an exported parameter, or its default."""
+        rt = self.rt
+        value = parameter_value(rt.program.exports[name], rt.options.parameters)
+        if isinstance(value, str):
+            return rt.text(value)
+        return Vec3.of(*value) if isinstance(value, tuple) else value
 
     def elements(self, subject: object) -> Iterator[object]:
         """What `for (x in subject)` goes over: the list as it is at every turn."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 MAX_SOURCE = 262_144
@@ -46,5 +47,7 @@ class HostOptions:
     fps: float = 24.0
     language: str = "en"
     """Language of messages: `en` or `ru`."""
+    parameters: Mapping[str, object] = field(default_factory=dict)
+    """Values of exported parameters by name: numbers, texts, triples of numbers. Others keep their default."""
     strict_files: bool = False
     """A missing texture or model is an error instead of a warning."""

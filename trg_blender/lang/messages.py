@@ -72,6 +72,14 @@ MESSAGES: dict[str, tuple[str, str]] = {
         "too many elements in one list (limit {limit})",
         "слишком много элементов в одном списке (предел {limit})",
     ),
+    "E230": (
+        "'export' stands at the top level of a program only",
+        "'export' пишется только на верхнем уровне программы",
+    ),
+    "E231": (
+        "expected range(low, high) or choice(\"a\", \"b\")",
+        "здесь нужно range(от, до) или choice(\"a\", \"b\")",
+    ),
     "E301": ("'{name}' is not a variable of this function", "'{name}' - не переменная этой функции"),
     "E302": ("'{name}' is not defined", "имя '{name}' не определено"),
     "E303": ("'{name}' is not defined in this function", "имя '{name}' не определено в этой функции"),
@@ -83,6 +91,20 @@ MESSAGES: dict[str, tuple[str, str]] = {
     "E322": (
         "includes are nested too deeply (limit {limit})",
         "слишком глубокие включения файлов (предел {limit})",
+    ),
+    "E330": (
+        "the default of a parameter is a number, a string, or vec3 of numbers, as written",
+        "значение параметра по умолчанию - число, строка или vec3 из чисел, записанные прямо",
+    ),
+    "E331": ("'{name}' is exported twice", "'{name}' экспортируется дважды"),
+    "E332": (
+        "the default of '{name}' must be {wanted}, not {value}",
+        "значение '{name}' по умолчанию должно быть {wanted}, а не {value}",
+    ),
+    "E333": ("a parameter cannot be of type '{name}'", "у параметра не может быть типа '{name}'"),
+    "E334": (
+        "{name} fits parameters of type {wanted} and takes {usage}",
+        "{name} подходит параметрам типа {wanted} и пишется {usage}",
     ),
     "E401": ("division by zero", "деление на ноль"),
     "E410": ("cannot compute {left} {op} {right}", "нельзя вычислить {left} {op} {right}"),
@@ -128,6 +150,10 @@ MESSAGES: dict[str, tuple[str, str]] = {
     "E443": ("an index must be a number, not {kind}", "индекс должен быть числом, а не {kind}"),
     "E444": ("'for ... in' goes over a list, not {kind}", "'for ... in' перебирает список, а не {kind}"),
     "E445": ("the list is empty", "список пуст"),
+    "E446": (
+        "'{name}' has no value yet, so it has no elements",
+        "у '{name}' ещё нет значения, поэтому нет и элементов",
+    ),
     "E501": (
         "{name} expects {wanted} as argument {index} ('{parameter}'), not {kind}",
         "{name}: аргумент {index} ('{parameter}') должен быть {wanted}, а не {kind}",
@@ -157,6 +183,11 @@ MESSAGES: dict[str, tuple[str, str]] = {
     "E510": ("'{name}' must stay inside the project", "'{name}' должен лежать внутри проекта"),
     "E511": ("cannot find '{name}'", "не найден файл '{name}'"),
     "E512": ("'{name}' cannot be read as text", "'{name}' нельзя прочитать как текст"),
+    "E520": ("the program exports no parameter '{name}'", "программа не экспортирует параметр '{name}'"),
+    "E521": (
+        "the value of '{name}' must be {wanted}, not {value}",
+        "значение '{name}' должно быть {wanted}, а не {value}",
+    ),
     "E601": (
         "the instruction budget of {limit} steps for a frame is used up",
         "исчерпан предел шагов на кадр (instruction budget): {limit}",
@@ -241,11 +272,13 @@ HINTS: dict[str, tuple[str, str]] = {
     "double_quotes": ("strings stand in double quotes", "строки пишутся в двойных кавычках"),
     "global_here": ("the global is assigned here", "глобальной переменной присвоено здесь"),
     "outer_variable": ("a variable of the function around it", "переменная внешней функции"),
+    "exported_here": ("exported here", "экспортируется здесь"),
     "argument_here": ("the argument", "аргумент"),
     "no_conditional": (
         "there is no '?:'; write if (...) ... else ...",
         "операции '?:' нет; пишите if (...) ... else ...",
     ),
+    "new_list": ("make a list first: {name} = [];", "сначала создайте список: {name} = [];"),
     "new_vector": ("make a new one: vec3(x, y, z)", "создайте новый: vec3(x, y, z)"),
     "not_a_closure": (
         "functions do not see the variables of the function around them; pass it as an argument",

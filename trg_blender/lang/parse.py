@@ -87,6 +87,8 @@ class Parser:
             made = ast.Block(token.span, ())
         elif token.text == "include" and cursor.tokens[cursor.at + 1].text == "(":
             made = self._include()
+        elif token.text == "export" and cursor.tokens[cursor.at + 1].kind == "name":
+            made = self._export()
         else:
             made = self._expression_statement()
         cursor.leave()
@@ -244,6 +246,32 @@ class Parser:
         cursor.expect(")")
         end = cursor.expect(";").span
         return ast.Include(start.to(end), str(token.value), token.span)
+
+    def _export(self) -> ast.Export:
+        cursor = self.cursor
+        start = cursor.next().span
+        if self.functions or self.around or cursor.levels > 1:
+            raise cursor.error("E230", start)
+        path = self.expressions.path()
+        cursor.expect("=")
+        value = self.expressions.parse()
+        depth = cursor.depth_above(value.depth)
+        assignment = ast.Assign(path.span.to(value.span), "=", path, value, depth)
+        type_name, type_span, limits = None, None, None
+        if cursor.sees("~") and cursor.tokens[cursor.at + 1].kind == "string":
+            type_name, type_span = self.expressions.type_name()
+        if cursor.accept("~"):
+            limits = self._export_limits()
+        end = cursor.expect(";").span
+        return ast.Export(start.to(end), assignment, type_name, type_span, limits)
+
+    def _export_limits(self) -> ast.Call:
+        place = self.cursor.token.span
+        made = self.expressions.parse()
+        callee = made.callee if isinstance(made, ast.Call) else None
+        if isinstance(callee, ast.Path) and callee.name in ("range", "choice"):
+            return made  # type: ignore[return-value]
+        raise self.cursor.error("E231", place)
 
     def _break(self) -> ast.Break:
         span = self.cursor.next().span

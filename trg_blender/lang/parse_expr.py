@@ -233,10 +233,14 @@ class ExpressionParser:
         if any(p.name == name.text for p in before):
             raise cursor.error("E208", name.span, name=name.text)
         default = self.parse() if cursor.accept("=") else None
-        type_name, type_span = None, None
-        if cursor.accept("~"):
-            token = cursor.next()
-            if token.kind != "string":
-                raise cursor.error("E209", token.span, "type_string")
-            type_name, type_span = str(token.value), token.span
+        type_name, type_span = self.type_name() if cursor.sees("~") else (None, None)
         return ast.Parameter(name.span, name.text, default, type_name, type_span)
+
+    def type_name(self) -> tuple[str, Span]:
+        """The name behind `~`, and where it stands."""
+        cursor = self.cursor
+        cursor.next()
+        token = cursor.next()
+        if token.kind != "string":
+            raise cursor.error("E209", token.span, "type_string")
+        return str(token.value), token.span

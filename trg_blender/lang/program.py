@@ -13,6 +13,7 @@ from .check import check_tree
 from .diagnostics import Diagnostic, DiagnosticBag, Notice, ProgramError
 from .emit import emit_file
 from .emit_expr import ProgramParts
+from .exports import Export, read_exports
 from .files import FileError, FileResolver, NoFiles
 from .limits import MAX_INCLUDE_DEPTH, MAX_INCLUDES, MAX_SOURCE
 from .memory import collecting_seldom
@@ -57,6 +58,8 @@ class Program:
     """Calls that make things, by built-in and place: the name under which translated code finds each."""
     global_names: tuple[str, ...] = field(repr=False)
     functions: tuple[FunctionFacts, ...] = field(repr=False)
+    exports: dict[str, Export] = field(default_factory=dict)
+    """Parameters that the host may set, by name, in the order in which they stand."""
 
     @property
     def start(self) -> Span:
@@ -76,6 +79,7 @@ class Loader:
         self.bag = bag
         self.sources: dict[str, SourceFile] = {}
         self.trees: list[ast.FileTree] = []
+        self.exports: dict[str, Export] = {}
         self.total = 0
         self._open: list[str] = []
 
@@ -156,6 +160,7 @@ def _compile(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -> 
         places=parts.places,
         global_names=tuple(resolution.globals),
         functions=facts_of(resolution),
+        exports=loader.exports,
     )
 
 
@@ -167,8 +172,11 @@ def understand(source: SourceFile, resolver: FileResolver, bag: DiagnosticBag) -
     loader = Loader(resolver, bag)
     loader.load(source)
     if bag.error_count:
-        return loader, resolve_despite_errors(loader.trees, loader.sources, bag)
-    return loader, resolve_program(loader.trees, HOST.names, bag)
+        resolution = resolve_despite_errors(loader.trees, loader.sources, bag)
+    else:
+        resolution = resolve_program(loader.trees, HOST.names, bag)
+    loader.exports = read_exports(loader.trees, loader.sources, bag)
+    return loader, resolution
 
 
 def without_consequences(bag: DiagnosticBag) -> tuple[Diagnostic, ...]:

@@ -13,6 +13,7 @@ from .library.mth import Pcg32
 from .library.scene_methods import SceneObject
 from .limits import HostOptions
 from .memory import collecting_seldom
+from .parameters import wrong_parameters
 from .program import Program
 from .runtime import CALL_LEVELS, Runtime
 from .scene import SceneDescription
@@ -46,14 +47,20 @@ class EndEvent:
 
 
 class Session:
-    """Runs a program. After an EndEvent it only ever returns that event."""
+    """Runs a program. After an EndEvent it only ever returns that event.
+
+    Parameters of `options` that the program does not export or that do not fit end it at once.
+    """
 
     def __init__(self, program: Program, options: HostOptions | None = None) -> None:
         self.program = program
-        self._rt = Runtime(program, options or HostOptions())
+        options = options or HostOptions()
+        self._rt = Runtime(program, options)
         self._rt.scene = SceneObject(self._rt)
         self._rt.random = Pcg32(0)
-        self._end: EndEvent | None = None
+        wrong = wrong_parameters(program, options)
+        self._rt.bag.items += wrong
+        self._end = EndEvent(wrong[0]) if wrong else None
         self._main: Generator[object, None, object] | None = None
 
     @property

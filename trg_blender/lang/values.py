@@ -123,6 +123,17 @@ class Undef(Value):
     def __bool__(self) -> bool:
         return False
 
+    def __getitem__(self, index: object) -> object:
+        raise self._no_elements()
+
+    def __setitem__(self, index: object, value: object) -> None:
+        raise self._no_elements()
+
+    def _no_elements(self) -> TrgError:
+        site = self.rt.site()
+        named = site is not None and site.names and site.names[0]
+        return TrgError("E446", "new_list", name=named or "it")
+
     def __eq__(self, other: object) -> bool:
         if type(other) is float:
             self.rt.warn_undefined(None)
