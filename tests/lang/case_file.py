@@ -5,7 +5,8 @@
     x = raduis;              //! E302@5: words    an error at this line and column, `words` in its text
     y = u + 1;               //? W701@5           a warning or lint; `@3:5` means line 3, column 5
     f();                     //< f@1              the error was called from f here (all calls, if any)
-    //& camera.width = 640                        a value of the last frame's SceneDescription
+    //& camera.width = 640                        a value of the last frame's SceneDescription, or of
+    //& exports.radius.high = 10                  the program's exported parameters
 
 Directives stand on lines of their own: the case as it lies there is the program that runs.
 
@@ -40,7 +41,7 @@ _FINDING = re.compile(
 )
 _CALL = re.compile(r"//< (?P<name>\S+)@(?:(?P<line>\d+):)?(?P<col>\d+)")
 _OUTPUT = re.compile(r"//=(?: (.*))?$")
-_SCENE = re.compile(r"//& (\S+) = (.*)$")
+_VALUE = re.compile(r"//& (\S+) = (.*)$")
 
 
 class CaseError(Exception):
@@ -69,13 +70,15 @@ class Case:
     links: dict[str, str] = field(default_factory=dict)
     limits: dict[str, object] = field(default_factory=dict)
     options: dict[str, object] = field(default_factory=dict)
-    parameters: dict[str, str] = field(default_factory=dict)
+    parameters: list[str] = field(default_factory=list)
+    """`name=value`, as `--set` takes them."""
     frames: int | None = None
     output: list[str] = field(default_factory=list)
     findings: list[Finding] = field(default_factory=list)
     calls: list[tuple[str, str]] = field(default_factory=list)
     """(function, file:line:col), in the order of the text."""
-    scene: list[tuple[str, object]] = field(default_factory=list)
+    values: list[tuple[str, object]] = field(default_factory=list)
+    """(path, value) in the last frame's scene or the program's exports."""
     newline: str = "\n"
     bom: str = ""
 
@@ -100,7 +103,7 @@ def read_case(name: str) -> Case:
         case.files[file] = block
         for number, line in enumerate(block.split("\n"), 1):
             _read_line(case, file, number, line)
-    if not (case.output or case.findings or case.scene or case.frames is not None):
+    if not (case.output or case.findings or case.values or case.frames is not None):
         raise CaseError(f"{name} expects nothing")
     return case
 
@@ -125,8 +128,8 @@ def _read_line(case: Case, file: str, number: int, line: str) -> None:
         case.calls.append((match["name"], f"{file}:{match['line'] or number}:{match['col']}"))
     if match := _OUTPUT.search(line):
         case.output.append(match[1] or "")
-    if match := _SCENE.search(line):
-        case.scene.append((match[1], ast.literal_eval(match[2])))
+    if match := _VALUE.search(line):
+        case.values.append((match[1], ast.literal_eval(match[2])))
     marks = len(re.findall(r"//[!?] [EWL]\d", line))
     if marks != len(_FINDING.findall(line)):
         raise CaseError(f"{case.name}:{number}: a mark is not understood")
@@ -139,7 +142,7 @@ def _read_directive(case: Case, word: str, rest: str) -> None:
     elif word == "option":
         case.options[key] = json.loads(value)
     elif word == "set":
-        case.parameters[key] = value
+        case.parameters.append(f"{key}={value}")
     elif word == "frames":
         case.frames = int(rest)
     elif word == "newline":

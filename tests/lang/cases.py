@@ -22,6 +22,7 @@ from trg_blender.lang import (
     Session,
     compile_source,
 )
+from trg_blender.lang.parameters import ParameterError, parse_parameter
 
 from .case_file import MAIN, Case, CaseError, Finding, all_names, read_case
 
@@ -36,13 +37,20 @@ class _Run:
         self.diagnostics: list[Diagnostic] = []
         self.frames = 0
         self.scene: SceneDescription | None = None
+        self.exports: object = None
         resolver = NoFiles() if folder is None else DiskFiles(folder)
         try:
             program = compile_source(case.main, MAIN, resolver)
         except ProgramError as error:
             self.diagnostics = list(error.diagnostics)
             return
-        session = Session(program, _options(case))
+        self.exports = program.exports
+        try:
+            given = dict(parse_parameter(program, text) for text in case.parameters)
+        except ParameterError as error:
+            self.diagnostics = [error.diagnostic]
+            return
+        session = Session(program, _options(case, given))
         while self.frames < MAX_FRAMES and isinstance(event := session.next_frame(), FrameEvent):
             self.frames += 1
             self.scene = event.scene
@@ -50,8 +58,9 @@ class _Run:
         self.diagnostics = [*program.diagnostics, *session.diagnostics]
 
 
-def _options(case: Case) -> HostOptions:
-    return HostOptions(limits=Limits(**case.limits), **case.options)  # type: ignore[arg-type]
+def _options(case: Case, given: dict[str, object]) -> HostOptions:
+    limits = Limits(**case.limits)  # type: ignore[arg-type]
+    return HostOptions(limits=limits, parameters=given, **case.options)  # type: ignore[arg-type]
 
 
 def failure_of(name: str) -> str:
@@ -96,7 +105,7 @@ def _compare(case: Case, run: _Run) -> str:
     calls = sorted((name, str(span)) for d in run.diagnostics for name, span in d.stack)
     if case.calls and calls != sorted(case.calls):
         return f"calls {calls}, expected {case.calls}"
-    return _compare_scene(case, run.scene)
+    return _compare_values(case, run)
 
 
 def _same_output(expected: list[str], output: list[str]) -> bool:
@@ -118,17 +127,24 @@ def _shown(diagnostics: list[Diagnostic]) -> list[str]:
     return [f"{d.code} {d.span} {d.message} = {d.hint}" for d in diagnostics]
 
 
-def _compare_scene(case: Case, scene: SceneDescription | None) -> str:
-    for path, expected in case.scene:
-        value: object = scene
-        for part in path.split("."):
-            if part == "count":
-                value = len(value)  # type: ignore[arg-type]
-            else:
-                value = value[int(part)] if part.isdigit() else getattr(value, part, None)  # type: ignore[index]
+def _compare_values(case: Case, run: _Run) -> str:
+    for path, expected in case.values:
+        first, *parts = path.split(".")
+        value: object = run.exports if first == "exports" else getattr(run.scene, first, None)
+        for part in parts:
+            value = _part(value, part)
         if not _close(value, expected):
             return f"{path} is {value!r}, expected {expected!r}"
     return ""
+
+
+def _part(value: object, part: str) -> object:
+    """An element, a field, or the `count` of elements."""
+    if part == "count":
+        return len(value)  # type: ignore[arg-type]
+    if isinstance(value, dict):
+        return value.get(part)
+    return value[int(part)] if part.isdigit() else getattr(value, part, None)  # type: ignore[index]
 
 
 def _close(value: object, expected: object) -> bool:

@@ -1,5 +1,4 @@
 //@ limit max_steps = 5000000
 std::limits();
 //= steps in a frame: 5000000
-//= seconds in a frame: 6
 //= ...

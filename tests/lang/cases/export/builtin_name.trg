@@ -1,0 +1,1 @@
+export sphere = 5;   //! E310@8

@@ -1,0 +1,2 @@
+export kind = "box" ~ choice("box", "ball");
+//& exports.kind.choices = ("box", "ball")

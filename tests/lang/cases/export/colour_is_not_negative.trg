@@ -1,0 +1,1 @@
+export c = vec3(-1, 0, 0) ~ "colour";   //! E332@12

@@ -1,0 +1,2 @@
+//@ set radius = inf
+export radius = 3;   //! E521@8

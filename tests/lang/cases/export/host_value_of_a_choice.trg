@@ -1,0 +1,2 @@
+//@ set kind = ball
+export kind = "box" ~ choice("box", "ball"); print(kind);   //= ball

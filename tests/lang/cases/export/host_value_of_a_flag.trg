@@ -1,0 +1,2 @@
+//@ set on = 0
+export on = 1 ~ "flag"; print(on);   //= 0

@@ -1,0 +1,2 @@
+//@ set name = red ball
+export name = "x"; print(name);   //= red ball

@@ -1,0 +1,2 @@
+//@ set radius = wide
+export radius = 3;   //! E521@8: 'radius'

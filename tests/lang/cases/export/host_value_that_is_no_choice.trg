@@ -1,0 +1,2 @@
+//@ set kind = cone
+export kind = "box" ~ choice("box", "ball");   //! E521@8

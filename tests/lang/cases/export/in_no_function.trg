@@ -1,0 +1,1 @@
+f = function() { export n = 1; };   //! E230@18

@@ -1,0 +1,1 @@
+export = 5; print(export);   //= 5

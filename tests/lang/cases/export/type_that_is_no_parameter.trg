@@ -1,0 +1,1 @@
+export n = 2 ~ "shape";   //! E333@16: shape

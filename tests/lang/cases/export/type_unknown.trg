@@ -1,0 +1,1 @@
+export n = 2 ~ "nums";   //! E333@16: num
