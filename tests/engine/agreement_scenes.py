@@ -169,8 +169,29 @@ def _many_lights() -> SceneArrays:
     return studio(MATERIALS["plastic"], *bulbs)
 
 
+def _shapes() -> SceneArrays:
+    """A true plane and true spheres, one stretched and textured, one glowing, among meshes."""
+    scene = studio(MATERIALS["plastic"])
+    scene.meshes[0].shape, scene.meshes[1].shape = "plane", "sphere"
+    scene.images, scene.textures = [checker()], [Texture(0, 4.0, 2.0)]
+    scene.materials[0] = replace(GREY, base_texture=0)
+    scene.materials += [
+        MATERIALS["glass"],
+        Material(0.5, 0.5, 0.5, emission_r=2.0, emission_g=1.0, emission_b=0.5),
+        replace(GREY, base_texture=0),
+    ]
+    squashed = np.array([[-0.5, 0.2, 0.0], [0.0, 0.3, 0.1], [0.0, 0.0, 0.4]])
+    scene.instances += [
+        place(1, 2, (0.3, -0.9, 0.4), linear=np.eye(3) * 0.4),
+        place(1, 3, (0.9, 0.5, 0.8), linear=np.eye(3) * 0.5),
+        place(1, 4, (-0.9, -0.8, 0.5), linear=squashed),
+    ]
+    return scene
+
+
 GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "textured": _textured,
+    "shapes": _shapes,
     "mirrored_and_squashed": _mirrored_and_squashed,
     "many_copies": _many_copies,
     "glow": _glow,

@@ -45,6 +45,12 @@ def build_native_scene(
 
 
 def add_mesh(result: Any, mesh: MeshArrays) -> None:
+    if mesh.shape == "sphere":
+        result.add_sphere()
+        return
+    if mesh.shape == "plane":
+        result.add_plane()
+        return
     result.add_mesh(
         np.ascontiguousarray(mesh.vertices, dtype=np.float32),
         np.ascontiguousarray(mesh.triangles, dtype=np.int32),

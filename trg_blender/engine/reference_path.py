@@ -127,9 +127,9 @@ def collect_lights(world: World, paths: Paths, hits: Hits, estimate: Estimate) -
 
 def collect_emission(world: World, paths: Paths, hits: Hits, surface: Surface, estimate: Estimate) -> None:
     """Adds the glow of the surface that was hit."""
-    if world.glow is None:
-        return
-    other = pdf_glow(world.glow, world.traced.triangles, hits.triangle, paths.rays.direction, hits.t)
+    other = np.zeros(len(paths.index))
+    if world.glow is not None:
+        other = pdf_glow(world.glow, world.traced.triangles, hits.triangle, paths.rays.direction, hits.t)
     weight = mis_weight(paths.pdf, other)[:, None]
     estimate.radiance[paths.index] += paths.throughput * surface.material.emission * weight
 

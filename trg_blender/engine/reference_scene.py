@@ -1,4 +1,5 @@
-"""The scene of the reference renderer: instances baked to world triangles, hits refined in float64.
+"""The scene of the reference renderer: instances baked to world triangles, hits refined in float64,
+spheres and planes met beside them.
 
 Embree finds which triangle a ray meets, in float32; distance and barycentrics are computed again from
 that triangle in float64, so that only the choice of the triangle rests on single precision.
@@ -6,13 +7,14 @@ that triangle in float64, so that only the choice of the triangle rests on singl
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .reference_math import dot, normalize
+from .reference_shapes import Shape, meet_shape, place_shapes
 from .scene_arrays import Float64, InstanceArrays, MeshArrays, SceneArrays
 
 MISS = -1
@@ -22,7 +24,7 @@ FAR = 1e37
 
 @dataclass(frozen=True, slots=True)
 class Triangles:
-    """All triangles of all instances in world space."""
+    """All triangles of all instances in world space, then a row without area for each shape."""
 
     corners: Float64
     """(n, 3, 3)"""
@@ -36,6 +38,12 @@ class Triangles:
     """(n,) index into SceneArrays.materials"""
     area: Float64
     """(n,)"""
+    shapes: tuple[Shape, ...] = ()
+    """what the last rows stand for: shape k is row `first_shape` + k"""
+
+    @property
+    def first_shape(self) -> int:
+        return len(self.area) - len(self.shapes)
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,7 +64,7 @@ class Hits:
     """(n,) inf for a miss"""
     u: Float64
     v: Float64
-    """weights of the second and third corner"""
+    """weights of the second and third corner; coordinates on a shape"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,15 +78,20 @@ class TracedScene:
         count = len(rays.origin)
         if self.embree is None or count == 0:
             miss = np.full(count, MISS, dtype=np.int64)
-            return Hits(miss, np.full(count, np.inf), np.zeros(count), np.zeros(count))
-        found = self._run(rays, "INTERSECT", output=True)
-        return refine_hits(self.triangles, rays, found["primID"].astype(np.int64))
+            hits = Hits(miss, np.full(count, np.inf), np.zeros(count), np.zeros(count))
+        else:
+            found = self._run(rays, "INTERSECT", output=True)
+            hits = refine_hits(self.triangles, rays, found["primID"].astype(np.int64))
+        return nearer_shapes(self.triangles, rays, hits)
 
     def occluded(self, rays: Rays) -> NDArray[np.bool_]:
         """Whether anything stands between origin and `far`."""
-        if self.embree is None or len(rays.origin) == 0:
-            return np.zeros(len(rays.origin), dtype=bool)
-        return np.asarray(self._run(rays, "OCCLUDED", output=False)) != MISS
+        hidden = np.zeros(len(rays.origin), dtype=bool)
+        if self.embree is not None and len(rays.origin):
+            hidden |= np.asarray(self._run(rays, "OCCLUDED", output=False)) != MISS
+        for shape in self.triangles.shapes:
+            hidden |= np.isfinite(meet_shape(shape, rays.origin, rays.direction, rays.far).t)
+        return hidden
 
     def _run(self, rays: Rays, query: str, output: bool) -> Any:
         origin = np.ascontiguousarray(rays.origin, dtype=np.float32)
@@ -101,6 +114,35 @@ def refine_hits(triangles: Triangles, rays: Rays, index: NDArray[np.int64]) -> H
     return Hits(index, t, dot(offset, p) * inverse, dot(rays.direction, q) * inverse)
 
 
+def nearer_shapes(triangles: Triangles, rays: Rays, hits: Hits) -> Hits:
+    """`hits`, replaced where a shape is met before."""
+    for number, shape in enumerate(triangles.shapes):
+        met = meet_shape(shape, rays.origin, rays.direction, np.minimum(rays.far, hits.t))
+        nearer = np.isfinite(met.t)
+        row = triangles.first_shape + number
+        hits = Hits(
+            np.where(nearer, row, hits.triangle),
+            np.where(nearer, met.t, hits.t),
+            np.where(nearer, met.u, hits.u),
+            np.where(nearer, met.v, hits.v),
+        )
+    return hits
+
+
+def with_shapes(triangles: Triangles, shapes: tuple[Shape, ...]) -> Triangles:
+    count = len(shapes)
+    zero = np.zeros((count, 3, 3))
+    rows = Triangles(
+        zero,
+        np.zeros((count, 3)),
+        zero,
+        np.zeros((count, 3, 2)),
+        np.array([shape.material for shape in shapes], dtype=np.int64),
+        np.zeros(count),
+    )
+    return replace(join_triangles([triangles, rows]), shapes=shapes)
+
+
 def build_traced_scene(scene: SceneArrays) -> TracedScene:
     """Bakes the instances and hands them to Embree.
 
@@ -112,15 +154,17 @@ def build_traced_scene(scene: SceneArrays) -> TracedScene:
     parts = [
         bake_instance(scene.meshes[one.mesh], one, transform)
         for one in scene.instances
+        if scene.meshes[one.mesh].shape == "triangles"
         for transform in np.asarray(one.transforms, dtype=np.float64)
     ]
     triangles = join_triangles(parts)
+    shapes = tuple(place_shapes(scene))
     if len(triangles.area) == 0:
-        return TracedScene(triangles, None)
+        return TracedScene(with_shapes(triangles, shapes), None)
     embree = EmbreeScene(robust=True)
     indices = np.arange(3 * len(triangles.area), dtype=np.int32).reshape(-1, 3)
     TriangleMesh(embree, np.ascontiguousarray(triangles.corners.reshape(-1, 3), dtype=np.float32), indices)
-    return TracedScene(triangles, embree)
+    return TracedScene(with_shapes(triangles, shapes), embree)
 
 
 def bake_instance(mesh: MeshArrays, instance: InstanceArrays, transform: Float64) -> Triangles:

@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from .reference_math import dot, normalize
 from .reference_scene import Hits, Triangles
+from .reference_shapes import shape_points
 from .reference_textures import linear_image, look_up
 from .scene_arrays import MATERIAL_FIELDS, Float64, SceneArrays, pack_table
 
@@ -119,12 +120,20 @@ def build_surface(triangles: Triangles, table: MaterialTable, hits: Hits, wo: Fl
     index = hits.triangle
     position = interpolate(triangles.corners[index], hits.u, hits.v)
     outside_normal = triangles.outside[index]
+    smooth_normal = interpolate(triangles.normals[index], hits.u, hits.v)
+    uv = interpolate(triangles.uvs[index], hits.u, hits.v)
+    for row in np.unique(index[index >= triangles.first_shape]):
+        rows = index == row
+        shape = triangles.shapes[row - triangles.first_shape]
+        points = shape_points(shape, hits.u[rows], hits.v[rows])
+        position[rows] = points.position
+        outside_normal[rows] = smooth_normal[rows] = points.outside
+        uv[rows] = np.stack([hits.u[rows], hits.v[rows]], axis=1)
     outside = dot(wo, outside_normal) >= 0.0
     turn = np.where(outside, 1.0, -1.0)[:, None]
     ng = outside_normal * turn
-    ns = normalize(interpolate(triangles.normals[index], hits.u, hits.v)) * turn
+    ns = normalize(smooth_normal) * turn
     ns = np.where((dot(wo, ns) > GRAZING)[:, None], ns, ng)
-    uv = interpolate(triangles.uvs[index], hits.u, hits.v)
     material = evaluate_material(table, triangles.material[index], uv)
     # Embree works in float32: its error grows with the coordinates and with the size of the triangle.
     corners = triangles.corners[index]

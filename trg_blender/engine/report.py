@@ -141,7 +141,11 @@ def interval_list(error: PictureError) -> list[float] | None:
 
 
 def scene_section(scene: SceneArrays) -> dict[str, int]:
-    triangles = sum(len(one.transforms) * len(scene.meshes[one.mesh].triangles) for one in scene.instances)
+    triangles = sum(
+        len(one.transforms) * len(scene.meshes[one.mesh].triangles)
+        for one in scene.instances
+        if scene.meshes[one.mesh].shape == "triangles"
+    )
     return {
         "triangles": triangles,
         "instances": sum(len(one.transforms) for one in scene.instances),

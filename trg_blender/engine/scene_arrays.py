@@ -18,12 +18,19 @@ Color = tuple[float, float, float]
 
 WRAP_MODES = ("repeat", "extend")
 LIGHT_KINDS = ("sun", "point", "spot", "area_rectangle", "area_ellipse")
+SHAPES = ("triangles", "sphere", "plane")
+"""what a mesh may be: its triangles, the unit sphere round the origin, the infinite plane z = 0"""
 CAMERA_KINDS = ("perspective", "orthographic")
 
 
 @dataclass(slots=True)
 class MeshArrays:
-    """Triangles of one mesh in its own space."""
+    """Triangles of one mesh in its own space, or a shape that rays meet exactly.
+
+    A shape other than triangles is that shape alone; its triangles are a stand-in for who cannot trace
+    it. All of it has slot 0. A sphere's u turns about z from -y towards x and its v rises from pole to
+    pole, both from 0 to 1; a plane's u and v are x and y.
+    """
 
     vertices: Float32
     """(n, 3)"""
@@ -37,6 +44,8 @@ class MeshArrays:
     """(m,) material slot of each triangle; None is slot 0"""
     origin: str = ""
     """Blender name, for messages"""
+    shape: str = "triangles"
+    """one of SHAPES"""
 
 
 @dataclass(slots=True)

@@ -11,6 +11,7 @@ from .passes import PASS_NAMES
 from .scene_arrays import (
     CAMERA_KINDS,
     LIGHT_KINDS,
+    SHAPES,
     WRAP_MODES,
     Camera,
     InstanceArrays,
@@ -63,6 +64,8 @@ def check_camera(camera: Camera) -> None:
 
 def check_mesh(mesh: MeshArrays) -> None:
     name = f"mesh {mesh.origin!r}"
+    if mesh.shape not in SHAPES:
+        raise SceneError(f"{name}: its shape is {mesh.shape!r}, expected one of {SHAPES}")
     count = len(mesh.triangles)
     expected = {
         "vertices": (len(mesh.vertices), 3),

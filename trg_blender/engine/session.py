@@ -119,12 +119,16 @@ def start_reference(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
 
     begin = time.perf_counter()
     world = build_world(scene)
-    baked = sum(len(one.transforms) * len(scene.meshes[one.mesh].triangles) for one in scene.instances)
+    baked = sum(
+        len(one.transforms) * len(scene.meshes[one.mesh].triangles)
+        for one in scene.instances
+        if scene.meshes[one.mesh].shape == "triangles"
+    )
     statistics = {
         "seconds": time.perf_counter() - begin,
         "accel": "embree",
         "bytes": None,
-        "degenerate_triangles": baked - len(world.traced.triangles.area),
+        "degenerate_triangles": baked - world.traced.triangles.first_shape,
     }
     return StartedJob(ReferenceJob(world, settings), statistics, None, 1)
 

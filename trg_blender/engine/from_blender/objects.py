@@ -8,6 +8,7 @@ import bpy
 import numpy as np
 
 from ..scene_arrays import Float32
+from .shapes import claimed_shape
 
 WITHOUT_SURFACE = {"EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "CURVE", "FONT", "META", "SURFACE"}
 """Kinds that show nothing themselves; the surface of the last four arrives as an instance of a mesh."""
@@ -29,6 +30,8 @@ class MeshGroup:
     mesh: bpy.types.Mesh
     materials: tuple[bpy.types.Material | None, ...]
     origin: str
+    shape: str
+    """what the object's tags say that its mesh stands for: one of SHAPES"""
     rows: list[int] = field(default_factory=list)
     """indices into Found.transforms"""
 
@@ -73,10 +76,11 @@ def _add_mesh(
 ) -> None:
     mesh = owner.data
     materials = tuple(slot.material for slot in owner.material_slots) or (None,)
-    key = (mesh.as_pointer(), *(0 if each is None else each.as_pointer() for each in materials))
+    shape = claimed_shape(owner)
+    key = (mesh.as_pointer(), hash(shape), *(0 if each is None else each.as_pointer() for each in materials))
     group = groups.get(key)
     if group is None:
-        group = groups[key] = MeshGroup(mesh, materials, owner.name)
+        group = groups[key] = MeshGroup(mesh, materials, owner.name, shape)
         if owner.is_holdout or owner.is_shadow_catcher:
             warnings.append(f"object {owner.name!r}: rendered as a plain surface, without holdout")
         if not owner.visible_camera:

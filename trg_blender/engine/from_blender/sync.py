@@ -15,6 +15,7 @@ from .lights import read_light
 from .materials import MaterialTable
 from .meshes import MeshRequest, read_mesh
 from .objects import Found, MeshGroup, find_objects
+from .shapes import is_unedited
 from .world import read_world
 
 FLAT_DETERMINANT = 1e-18
@@ -70,7 +71,7 @@ class _Meshes:
     table: MaterialTable
     fast: bool
     warnings: list[str]
-    known: dict[tuple[int, int, str | None], int] = field(default_factory=dict)
+    known: dict[tuple[int, int, str | None, str], int] = field(default_factory=dict)
 
     def add_all(self, found: Found) -> None:
         for group in found.groups:
@@ -110,9 +111,12 @@ class _Meshes:
 
     def _mesh(self, group: MeshGroup, slots: tuple[int, ...]) -> int:
         uv_map = self.table.uv_map_of(slots)
-        key = (group.mesh.as_pointer(), len(slots), uv_map)
+        key = (group.mesh.as_pointer(), len(slots), uv_map, group.shape)
         if key not in self.known:
             request = MeshRequest(len(slots), uv_map is not None, uv_map or "", self.fast)
             self.known[key] = len(self.arrays.meshes)
-            self.arrays.meshes.append(read_mesh(group.mesh, request, self.warnings))
+            mesh = read_mesh(group.mesh, request, self.warnings)
+            if is_unedited(mesh, group.shape):
+                mesh.shape = group.shape
+            self.arrays.meshes.append(mesh)
         return self.known[key]
