@@ -20,6 +20,7 @@ from ..lang import (
     render_diagnostic,
 )
 from ..lang.files import bundled_library
+from ..lang.limits import change_limits
 from .language import add_language, chosen_language
 from .parameters import SetError, add_set, parameters_of, refuse
 
@@ -38,8 +39,21 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--max-steps", type=positive, default=Limits().max_steps, metavar="N",
         help="steps allowed for one frame (%(default)s)",
     )  # fmt: skip
+    parser.add_argument(
+        "--limit", type=one_limit, action="append", default=[], metavar="NAME=VALUE",
+        help="change a limit that an error named, for example max_shapes=2000000",
+    )  # fmt: skip
     add_language(parser)
     add_set(parser)
+
+
+def one_limit(text: str) -> str:
+    """A setting that `change_limits` takes; argparse reports what it says of another."""
+    try:
+        change_limits(Limits(), [text])
+    except ValueError as error:
+        raise argparse.ArgumentTypeError(str(error)) from None
+    return text
 
 
 def positive(text: str) -> int:
@@ -66,7 +80,7 @@ def run(args: argparse.Namespace) -> int:
         parameters = parameters_of(program, args.settings, language)
     except SetError as error:
         return refuse(error)
-    limits = Limits(max_steps=args.max_steps)
+    limits = change_limits(Limits(max_steps=args.max_steps), args.limit)
     options = HostOptions(limits=limits, frames=args.frames, language=language, parameters=parameters)
     session = Session(program, options)
     frames, out_of_budget = 0, False

@@ -94,7 +94,8 @@ class FaultReader:
         name = places[-1][0]
         if trace.tb_frame.f_globals is not self.rt.globals or not name.startswith("f_"):
             return None
-        return TrgError("E607", name=self.rt.program.function_name(name), limit=MAX_CALL_DEPTH)
+        name = self.rt.program.function_name(name)
+        return TrgError("E607", "fixed_limit", name=name, limit=MAX_CALL_DEPTH)
 
     def _explain(self, error: BaseException, site: Site) -> TrgError:
         """What to say of an exception. `++` is translated to a subtraction: it is named as written."""
@@ -109,7 +110,7 @@ class FaultReader:
         if isinstance(error, ZeroDivisionError):
             return TrgError("E401")
         if isinstance(error, RecursionError):
-            return TrgError("E607", name="function", limit=MAX_CALL_DEPTH)
+            return TrgError("E607", "fixed_limit", name="function", limit=MAX_CALL_DEPTH)
         if isinstance(error, MemoryError):
             return TrgError("E611")
         if isinstance(error, AttributeError):

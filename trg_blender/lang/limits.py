@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 
 MAX_SOURCE = 262_144
 MAX_INCLUDES = 32
@@ -18,7 +18,7 @@ class Limits:
 
     max_steps: int = 20_000_000
     """Turns of loops, calls, and blocks of straight statements."""
-    max_seconds: float = 6.0
+    max_seconds: float = 5.0
     """CPU seconds of the thread that runs the program."""
     max_string: int = 65_536
     """Characters of one string."""
@@ -51,3 +51,20 @@ class HostOptions:
     """Values of exported parameters by name: numbers, texts, triples of numbers. Others keep their default."""
     strict_files: bool = False
     """A missing texture or model is an error instead of a warning."""
+
+
+def change_limits(limits: Limits, settings: list[str]) -> Limits:
+    """`limits` with `name=value` settings, names as in Limits. ValueError says what is wrong with one."""
+    known = {f.name: type(getattr(limits, f.name)) for f in fields(Limits)}
+    for setting in settings:
+        name, separator, text = setting.partition("=")
+        if name not in known or not separator:
+            raise ValueError(f"{setting!r} is no limit; write NAME=VALUE, NAME one of {', '.join(known)}")
+        try:
+            value = known[name](text)
+        except ValueError:
+            raise ValueError(f"{setting!r}: {text!r} is not a number") from None
+        if not 0 < value < float("inf"):
+            raise ValueError(f"{setting!r}: a limit is greater than 0")
+        limits = replace(limits, **{name: value})
+    return limits

@@ -63,7 +63,7 @@ def count_elements(rt: Runtime, count: int) -> None:
         gc.collect()
         rt.check_time()
         if rt.live_elements + count > limit:
-            raise TrgError("E612", limit=limit)
+            raise TrgError("E612", "raise_other", option="max_elements", limit=limit)
     rt.live_elements += count
     rt.work_on_text(POINTER * count)
 

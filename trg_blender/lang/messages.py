@@ -197,8 +197,8 @@ MESSAGES: dict[str, tuple[str, str]] = {
         "исчерпано время на кадр: {limit:g} с",
     ),
     "E604": (
-        "the program uses too much memory (limit {limit})",
-        "программе нужно слишком много памяти (предел {limit})",
+        "the program uses too much memory (limit {limit} MB)",
+        "программе нужно слишком много памяти (предел {limit} МБ)",
     ),
     "E605": ("the string is longer than {limit} characters", "строка длиннее {limit} символов"),
     "E606": (
@@ -225,6 +225,10 @@ MESSAGES: dict[str, tuple[str, str]] = {
     "E612": (
         "the lists of the program hold more than {limit} elements",
         "в списках программы больше {limit} элементов",
+    ),
+    "E613": (
+        "the program holds too many values and objects (limit {limit} blocks of memory)",
+        "программа держит слишком много значений и объектов (предел {limit} блоков памяти)",
     ),
     "E900": (
         "internal error in TRG: {kind}; please report it",
@@ -270,6 +274,7 @@ HINTS: dict[str, tuple[str, str]] = {
     "did_you_mean_field": ("did you mean '{guess}'?", "может быть, '{guess}'?"),
     "double_backslash": ("write \\\\ or use /", "пишите \\\\ или /"),
     "double_quotes": ("strings stand in double quotes", "строки пишутся в двойных кавычках"),
+    "fixed_limit": ("this limit is fixed", "этот предел постоянен"),
     "global_here": ("the global is assigned here", "глобальной переменной присвоено здесь"),
     "outer_variable": ("a variable of the function around it", "переменная внешней функции"),
     "exported_here": ("exported here", "экспортируется здесь"),
@@ -289,9 +294,10 @@ HINTS: dict[str, tuple[str, str]] = {
         "после 'operator' одна из + - * / % == != < > <= >= !",
     ),
     "raise_limit": (
-        "call Scene.Render() in the loop, or raise the limit (--max-steps, preferences)",
-        "вызовите Scene.Render() в цикле или увеличьте предел (--max-steps, настройки)",
+        "call Scene.Render() in the loop, or raise the limit (--limit {option}=N)",
+        "вызовите Scene.Render() в цикле или увеличьте предел (--limit {option}=N)",
     ),
+    "raise_other": ("raise the limit with --limit {option}=N", "увеличьте предел: --limit {option}=N"),
     "reserved": ("reserved for later versions", "оставлено для следующих версий"),
     "reserved_word": ("this keyword cannot stand here", "это служебное слово здесь не может стоять"),
     "split_expression": ("split it into several statements", "разбейте на несколько операторов"),

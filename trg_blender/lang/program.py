@@ -89,7 +89,7 @@ class Loader:
         self.total += len(source.text)
         if self.total > MAX_SOURCE:
             start = Span(source.name, 1, 1, 1, 1)
-            self.bag.add(Notice("E109", start, {"limit": MAX_SOURCE}))
+            self.bag.add(Notice("E109", start, {"limit": MAX_SOURCE}, "fixed_limit"))
             return
         tree = parse_source(source, self.bag)
         self.trees.append(tree)
@@ -118,7 +118,8 @@ class Loader:
             self.load(source)
 
     def _error(self, code: str, node: ast.Include, **values: object) -> None:
-        self.bag.add(Notice(code, node.name_span, values))
+        hint = "fixed_limit" if "limit" in values else None
+        self.bag.add(Notice(code, node.name_span, values, hint))
 
 
 def compile_source(

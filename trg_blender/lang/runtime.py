@@ -112,7 +112,7 @@ class Runtime:
         self.check_limits()
         left = self.limits.max_steps - self._steps
         if left <= 0:
-            raise TrgError("E601", "raise_limit", limit=self.limits.max_steps)
+            raise TrgError("E601", "raise_limit", option="max_steps", limit=self.limits.max_steps)
         self._slice = min(SLICE, left)
         self._steps += self._slice
         return iter(_STEPS[: self._slice])
@@ -133,15 +133,16 @@ class Runtime:
         limits = self.limits
         blocks = sys.getallocatedblocks() - self._blocks_start - BLOCKS_OF_THING * self.things
         if blocks > limits.max_blocks:
-            raise TrgError("E604", limit=f"{limits.max_blocks} blocks")
+            raise TrgError("E613", "raise_other", option="max_blocks", limit=limits.max_blocks)
         if blocks > _HOLDS_SOMETHING:
             grown = resident_bytes() - self._resident_start - BYTES_OF_THING * self.things
             if grown > limits.max_bytes:
-                raise TrgError("E604", limit=f"{limits.max_bytes // 1048576} MB")
+                megabytes = limits.max_bytes // 1048576
+                raise TrgError("E604", "raise_other", option="max_bytes", limit=megabytes)
 
     def check_time(self) -> None:
         if time.thread_time() - self._seconds_start > self.limits.max_seconds:
-            raise TrgError("E602", "raise_limit", limit=self.limits.max_seconds)
+            raise TrgError("E602", "raise_limit", option="max_seconds", limit=self.limits.max_seconds)
 
     def begin_frame(self) -> None:
         """Start the budget of the next frame."""
@@ -153,10 +154,11 @@ class Runtime:
     def hold_text(self, text: str) -> None:
         """Count a new string; raises TrgError above the limit for one or for all."""
         if len(text) > self.limits.max_string:
-            raise TrgError("E605", limit=self.limits.max_string)
+            raise TrgError("E605", "raise_other", option="max_string", limit=self.limits.max_string)
         size = sys.getsizeof(text) if text else 0
         if self.live_text + size > self.limits.max_text_bytes:
-            raise TrgError("E606", limit=self.limits.max_text_bytes // (1024 * 1024))
+            megabytes = self.limits.max_text_bytes // 1048576
+            raise TrgError("E606", "raise_other", option="max_text_bytes", limit=megabytes)
         self.live_text += size
         self.work_on_text(size)
 
@@ -253,7 +255,7 @@ class Runtime:
             raise self.too_many_things()
 
     def too_many_things(self) -> TrgError:
-        return TrgError("E610", limit=self.limits.max_shapes)
+        return TrgError("E610", "raise_other", option="max_shapes", limit=self.limits.max_shapes)
 
     def text(self, text: str) -> Str:
         return Str(self, text)
@@ -271,7 +273,7 @@ class Runtime:
         if not callable(function):
             raise TrgError("E416")
         if self._operator_depth >= MAX_OPERATOR_DEPTH:
-            raise TrgError("E608", limit=MAX_OPERATOR_DEPTH)
+            raise TrgError("E608", "fixed_limit", limit=MAX_OPERATOR_DEPTH)
         frame = trg_frame(self.globals)
         self._operator_depth += 1
         try:
