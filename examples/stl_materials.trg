@@ -24,5 +24,5 @@ for (place in arrange::grid(10, 4, 2.5))
 Scene.Add(area_light(vec3(-9, 9, 7), vec3(9, -8, -7), 7, 7, vec3(4, 3.8, 3.5)));
 Scene.Add(area_light(vec3(12, 8, -2), vec3(-12, -7, 2), 4, 8, vec3(2.5, 2.8, 3.2)));
 Scene.Add(dir_light(vec3(-3, 7, 5), vec3(0.6, 0.58, 0.55)));
-Scene.CamSet(960, 440, vec3(0, 14, 26), vec3(0, 0.4, 0), vec3(0, 1, 0), 25.5);
+Scene.CamSet(960, 380, vec3(0, 14, 26), vec3(0, 0.4, 0), vec3(0, 1, 0), 22.1);
 Scene.Render();

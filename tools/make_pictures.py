@@ -43,7 +43,7 @@ PICTURES = {
         tuple((name, 1) for name in ("materials", "lights", "textures", "instances", "functions", "paper")),
         (360, 203), 128, 3,
     ),
-    "stl_materials": alone("stl_materials", (720, 330), 256),
+    "stl_materials": alone("stl_materials", (720, 285), 256),
     "stl_stairs": alone("stl_stairs", (720, 405), 224),
     "stl_gears": alone("stl_gears", (720, 405), 224),
     "stl_springs": alone("stl_springs", (720, 405), 192),
