@@ -93,3 +93,119 @@ def test_the_library_is_found_from_anywhere_by_the_papers_name(project, run) -> 
 def test_a_file_that_is_no_text_is_an_error(project, run) -> None:
     (project / "bad.trg").write_bytes(b"\xff\xfe\x00")
     assert run('include("bad.trg");', resolver=DiskFiles(project)).error == ("E512", "1:9")
+
+
+# Every fence, and somebody who tries to cross it.
+
+CROSSINGS = {
+    "absolute": "/etc/hostname",
+    "absolute, doubled": "//etc/hostname",
+    "parent": "../secret.trg",
+    "parent, deep": "lib/../../secret.trg",
+    "parent, backslash": "..\\secret.trg",
+    "parent, mixed": "lib\\..//..\\secret.trg",
+    "parent, of the library": "stl/../../secret.trg",
+    "drive": "C:\\Windows\\win.ini",
+    "drive, relative": "c:secret.trg",
+    "UNC": "\\\\server\\share\\x.trg",
+    "UNC, slashes": "//server/share/x.trg",
+    "device path": "\\\\.\\PhysicalDrive0",
+    "verbatim path": "\\\\?\\C:\\x.trg",
+    "URL": "https://example.org/x.trg",
+    "URL, file": "file:///etc/hostname",
+    "URL, upper case": "FILE:/etc/hostname",
+    "home": "~/x.trg",
+    "home of another": "~root/x.trg",
+    "null": "lib/a.trg\0.png",
+    "line end": "lib/a\n.trg",
+    "long": "x" * 5000,
+    "many parts": "a/" * 3000 + "x",
+    "reserved": "con",
+    "reserved, upper case": "CON",
+    "reserved, extension": "nul.trg",
+    "reserved, deep": "lib/aux.txt/x",
+    "reserved, number": "lib/com1",
+    "reserved, printer": "LPT9.trg",
+    "reserved, space": "con .trg",
+    "reserved, trailing dot": "nul.",
+    "reserved, console": "CONIN$",
+    "reserved, superscript": "com\u00b9",
+    "stream": "lib/a.trg:secret",
+    "stream, data": "lib/a.trg::$DATA",
+    "stream, folder": "lib:$I30:$INDEX_ALLOCATION/a.trg",
+    "trailing dot": "lib/a.trg.",
+    "trailing space": "lib/a.trg ",
+    "parent, trailing space": ".. /secret.trg",
+    "parent, three dots": ".../secret.trg",
+    "empty": "",
+    "dots": "./././",
+}
+
+
+@pytest.mark.parametrize("crossing", CROSSINGS)
+def test_a_crossing_is_refused(crossing, project) -> None:
+    files = DiskFiles(project, (project / "lib",))
+    for look_up in (files.resolve_include, files.resolve_file):
+        with pytest.raises(FileError) as caught:
+            look_up(CROSSINGS[crossing], "lib/a.trg")
+        assert caught.value.code == "E510"
+
+
+@pytest.mark.parametrize(
+    "from_file", ["../../main.trg", "/etc/main.trg", "..\\main.trg", "lib/../../main.trg"]
+)
+def test_the_name_of_the_text_leads_nowhere(from_file, project) -> None:
+    files = DiskFiles(project)
+    assert files.resolve_file("secret.trg", from_file) is None
+    assert files.resolve_file("hostname", from_file) is None
+
+
+def test_a_fifo_is_no_file(project) -> None:
+    os = pytest.importorskip("os")
+    if not hasattr(os, "mkfifo"):
+        pytest.skip("this system has no FIFOs")
+    os.mkfifo(project / "pipe.trg")
+    assert DiskFiles(project).resolve_file("pipe.trg", "main.trg") is None
+    with pytest.raises(FileError) as caught:
+        DiskFiles(project).resolve_include("pipe.trg", "main.trg")
+    assert caught.value.code == "E511"
+
+
+def test_a_link_to_a_device_is_refused(project) -> None:
+    (project / "zero.trg").symlink_to("/dev/zero")
+    for look_up in (DiskFiles(project).resolve_include, DiskFiles(project).resolve_file):
+        try:
+            assert look_up("zero.trg", "main.trg") is None
+        except FileError as error:
+            assert error.code in ("E510", "E511")
+
+
+def test_a_link_to_a_folder_outside_is_refused_in_any_case(project) -> None:
+    (project / "Door").symlink_to(project.parent)
+    for name in ("Door/secret.trg", "door/SECRET.trg", "DOOR\\secret.trg"):
+        with pytest.raises(FileError) as caught:
+            DiskFiles(project).resolve_file(name, "main.trg")
+        assert caught.value.code == "E510"
+
+
+def test_a_link_in_a_circle_is_no_file(project) -> None:
+    (project / "round.trg").symlink_to(project / "round.trg")
+    try:
+        assert DiskFiles(project).resolve_file("round.trg", "main.trg") is None
+    except FileError as error:
+        assert error.code == "E510"
+
+
+def test_a_huge_text_is_refused_by_its_size(project) -> None:
+    with open(project / "huge.trg", "wb") as huge:
+        huge.truncate(40 * 1024**3)  # a hole: it takes no room on the disk
+    with pytest.raises(FileError) as caught:
+        DiskFiles(project).resolve_include("huge.trg", "main.trg")
+    assert caught.value.code == "E512"
+
+
+def test_a_text_that_is_not_utf8_is_refused(project) -> None:
+    (project / "binary.trg").write_bytes(b"\xff\xfe\x00x")
+    with pytest.raises(FileError) as caught:
+        DiskFiles(project).resolve_include("binary.trg", "main.trg")
+    assert caught.value.code == "E512"

@@ -17,7 +17,10 @@ from .source import SourceFile
 _DRIVE_OR_URL = re.compile(r"^[A-Za-z][A-Za-z0-9+.-]*:")
 _MAX_NAME = 512
 _MAX_FOLDER_ENTRIES = 20_000
-_DEVICE_NAMES = re.compile(r"^(?:con|prn|aux|nul|com\d|lpt\d)(?:\..*)?$", re.IGNORECASE)
+# Windows opens devices under these names in every folder, whatever follows them.
+_DEVICE_NAMES = re.compile(
+    r"^(?:con|conin\$|conout\$|prn|aux|nul|(?:com|lpt)[0-9\u00b9\u00b2\u00b3]) *(?:\..*)?$", re.IGNORECASE
+)
 
 
 class FileError(Exception):
@@ -52,7 +55,8 @@ def clean_name(name: str) -> tuple[str, ...]:
         raise FileError("E510", name)
     parts = tuple(part for part in text.split("/") if part not in ("", "."))
     for part in parts:
-        if part == ".." or ":" in part or _DEVICE_NAMES.match(part):
+        # A dot or space at the end is none to Windows: `.. ` would be the folder above.
+        if part.endswith((".", " ")) or ":" in part or _DEVICE_NAMES.match(part):
             raise FileError("E510", name)
     if not parts:
         raise FileError("E510", name)
