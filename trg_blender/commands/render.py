@@ -21,6 +21,8 @@ from .. import cli
 from ..engine.devices import DEVICE_NAMES, INTEGRATORS, Unavailable, require_device
 from ..engine.native import ACCELERATORS
 from ..engine.report import with_source
+from ..lang import ProgramError
+from .parameters import SetError, add_set, parameters_of
 from .render_output import ProgressPrinter, blender_chatter_off, describe_report, frame_path, write_report
 
 SOURCES, PICTURES = (".trg", ".blend"), (".png", ".exr")
@@ -64,6 +66,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add("--threads", type=_at_least(0), metavar="N", help="0: all cores")
     add("--engine", choices=("TRG", "CYCLES"), default="TRG", help="engine that renders the scene")
     add("--report", type=Path, metavar="FILE", help="write the report as JSON; several frames give a list")
+    add_set(parser)
     add("--quiet", action="store_true", help="no progress and no closing paragraph")
 
 
@@ -129,6 +132,25 @@ class RenderCommand:
             bpy.ops.wm.read_homefile(use_empty=True, use_factory_startup=True)
             bpy.context.scene.trg.program = bpy.data.texts.load(path)
         apply_options(bpy, bpy.context.scene, args)
+        self._set_parameters()
+
+    def _set_parameters(self) -> None:
+        """Stores what --set asks for in the scene. Raises RenderFailed; a wrong program fails when it runs."""
+        from ..engine.run_text import read_program
+        from ..engine.to_blender.parameters import store_parameters
+
+        if not self.args.settings:
+            return
+        scene = self.bpy.context.scene
+        try:
+            program = read_program(scene)
+            if program is None:
+                raise SetError(f"--set {self.args.settings[0]}: the scene has no program")
+            store_parameters(scene, program, parameters_of(program, self.args.settings))
+        except SetError as error:
+            raise RenderFailed(f"trg: error: {error}", cli.USAGE) from error
+        except ProgramError:
+            return
 
     def close(self) -> None:
         """Leaves Blender as it was found."""

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import bpy
 from bpy.app.handlers import persistent
 
+from .. import lang
 from .to_blender.main_thread import MainThread, MainThreadBusy
 from .to_blender.program_runner import ProgramFailure, ProgramOutcome, ProgramRunner
 
@@ -107,6 +108,15 @@ def run_program(scene: bpy.types.Scene, frame: int) -> ProgramOutcome | None:
     Call it on the main thread. What is wrong with the program or its scene is in the outcome, not raised.
     """
     return programs.run(scene, frame)
+
+
+def read_program(scene: bpy.types.Scene) -> lang.Program | None:
+    """Compile the scene's program and offer its parameters, without running it; None when it has none.
+
+    Raises ProgramError.
+    """
+    text = program_of(scene)
+    return None if text is None else programs.runner_of(scene).compile(scene, text)
 
 
 def take_pending_error(scene: bpy.types.Scene | None = None) -> ProgramFailure | None:

@@ -42,6 +42,25 @@ class TRG_RENDER_PT_program(_RenderPanel, bpy.types.Panel):
         self.layout.operator("trg.build")
 
 
+class TRG_RENDER_PT_parameters(_RenderPanel, bpy.types.Panel):
+    """The program's exported parameters."""
+
+    bl_label = "Parameters"
+    bl_parent_id = "TRG_RENDER_PT_program"
+
+    @classmethod
+    def poll(cls, context: bpy.types.Context) -> bool:
+        settings = context.scene.trg
+        return super().poll(context) and settings.program is not None and bool(settings.parameters.keys())
+
+    def draw(self, context: bpy.types.Context) -> None:
+        layout, parameters = self.layout, context.scene.trg.parameters
+        layout.use_property_split = True
+        for name in parameters.keys():  # noqa: SIM118 (not a dict)
+            path = f'["{bpy.utils.escape_identifier(name)}"]'
+            layout.prop(parameters, path, text=name.replace("_", " "), slider=True)
+
+
 class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):
     """Samples, bounces and what traces them."""
 
@@ -109,7 +128,13 @@ def _adopted() -> Iterator[type]:
             yield panel
 
 
-CLASSES = (TRG_RENDER_PT_program, TRG_RENDER_PT_sampling, TRG_RENDER_PT_report, TRG_VIEWLAYER_PT_passes)
+CLASSES = (
+    TRG_RENDER_PT_program,
+    TRG_RENDER_PT_parameters,
+    TRG_RENDER_PT_sampling,
+    TRG_RENDER_PT_report,
+    TRG_VIEWLAYER_PT_passes,
+)
 
 
 def register() -> None:

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+import contextlib
+
 import bpy
+
+from .. import lang
+from ..engine import run_text
 
 DEVICES = (
     ("auto", "Auto", "The fastest device of this machine"),
@@ -20,6 +25,16 @@ ACCELERATORS = (
 INTEGRATORS = (("path", "Path Tracing", "Unidirectional, with light sampling and Russian roulette"),)
 
 
+def _offer_parameters(settings: TRGSceneSettings, _context: bpy.types.Context) -> None:
+    """Show the parameters of the program just chosen; what is wrong with it is said when it runs."""
+    with contextlib.suppress(lang.ProgramError):
+        run_text.read_program(settings.id_data)
+
+
+class TRGParameters(bpy.types.PropertyGroup):
+    """Values of the program's exported parameters, as custom properties: engine/to_blender/parameters.py."""
+
+
 class TRGSceneSettings(bpy.types.PropertyGroup):
     """How TRG renders a scene."""
 
@@ -27,7 +42,9 @@ class TRGSceneSettings(bpy.types.PropertyGroup):
         name="Program",
         description="Text that builds the scene before each frame; without one the scene renders as it is",
         type=bpy.types.Text,
+        update=_offer_parameters,
     )
+    parameters: bpy.props.PointerProperty(type=TRGParameters)  # type: ignore[valid-type]
     samples: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Samples", description="Light paths traced for each pixel", default=64, min=1, soft_max=4096
     )
@@ -52,7 +69,7 @@ class TRGSceneSettings(bpy.types.PropertyGroup):
     )
 
 
-CLASSES = (TRGSceneSettings,)
+CLASSES = (TRGParameters, TRGSceneSettings)
 
 
 def register() -> None:

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import bpy
 
 from ... import lang
 from .. import errors
 from .mirror import MirrorCounts, SceneMirror, new_planner
+from .parameters import offer_parameters, parameter_values
 from .plan import Planner
 from .text_files import TextFiles
 
@@ -64,6 +66,8 @@ class ProgramRunner:
     _ended: bool = False
     _output_taken: int = 0
     _diagnostics_taken: int = 0
+    _parameters: dict[str, Any] = field(default_factory=dict)
+    """values that the session runs with"""
     _planner: Planner = field(default_factory=new_planner)
 
     def run(self, scene: bpy.types.Scene, text: bpy.types.Text, frame: int) -> ProgramOutcome:
@@ -72,7 +76,7 @@ class ProgramRunner:
         failure = None
         counts = None
         try:
-            self._compile(text)
+            self.compile(scene, text)
             self._advance(scene, frame)
             mirror = SceneMirror(scene, self._planner)
             counts = mirror.apply(self._scene_to_show(text))
@@ -90,8 +94,16 @@ class ProgramRunner:
             self._restart()
         return ProgramOutcome(frame, failure, counts, self._ended, time.perf_counter() - begin)
 
+    def compile(self, scene: bpy.types.Scene, text: bpy.types.Text) -> lang.Program:
+        """Compile when the text or anything it includes is not what it was; offer its parameters.
+
+        Raises ProgramError.
+        """
+        self._compile(text)
+        offer_parameters(scene, self._program)
+        return self._program
+
     def _compile(self, text: bpy.types.Text) -> None:
-        """Compile when the text or anything it includes is not what it was. Raises ProgramError."""
         source = text.as_string()
         digest = hashlib.blake2b(f"{text.name}\0{source}".encode()).hexdigest()
         if self._program is not None and digest == self._digest and self._files.is_current(text):
@@ -106,9 +118,12 @@ class ProgramRunner:
 
     def _advance(self, scene: bpy.types.Scene, frame: int) -> None:
         """Let the program run to its `frame`-th Render() or to its end. Raises _Failed."""
-        if self._session is None or frame < self._frame:
+        parameters = parameter_values(scene, self._program)
+        if self._session is None or frame < self._frame or parameters != self._parameters:
             self._restart()
-            self._session = lang.Session(self._program, host_options(scene))
+            self._parameters = parameters
+            options = replace(host_options(scene), parameters=parameters)
+            self._session = lang.Session(self._program, options)
         deadline = time.monotonic() + RUN_AHEAD_SECONDS
         while self._frame < frame and not self._ended:
             event = self._session.next_frame()
