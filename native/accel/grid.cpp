@@ -14,7 +14,7 @@ constexpr double kPadding = 1e-5;        // of the extent, besides a few units i
 constexpr double kClosedMargin = 1e-4;   // of a cell
 constexpr int kMostCellsAlong = 1024;
 constexpr int64_t kMostEntries = int64_t{1} << 31;
-constexpr double kMostCellsPerItem = 16, kMostEntriesPerItem = 64;
+constexpr double kMostCellsPerItem = 16, kMostEntriesPerItem = 32;
 
 /// What one step to the next cell costs, in tests of a block.
 constexpr double kStepCost = 0.6;

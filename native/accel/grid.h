@@ -22,13 +22,18 @@ TRG_FN int64_t cell_count(const Grid& grid) {
     return int64_t{grid.size[0]} * grid.size[1] * grid.size[2];
 }
 
-/// A grid, and in some of its cells a finer one. Cell c of all of them in a row has the blocks
-/// cell_begin[c] to cell_begin[c + 1]; a cell with a finer grid has none itself.
+/// Blocks of one cell. Cells with the same items have the same blocks.
+struct BlockRange {
+    uint32_t begin, end;
+};
+
+/// A grid, and in some of its cells a finer one; `cells` are those of all of them in a row. A cell
+/// with a finer grid has no blocks itself.
 struct GridIndex {
     Grid outer;
     std::vector<Grid> inner;
     std::vector<int32_t> inner_of_cell;   // by cell of `outer`, -1: none; empty when no cell has one
-    std::vector<uint32_t> cell_begin;
+    std::vector<BlockRange> cells;
 };
 
 /// The items of every cell in a row: cell c has items[begin[c]] to items[begin[c + 1]].

@@ -1,6 +1,7 @@
 #include "accel/grid_build.h"
 
 #include <algorithm>
+#include <unordered_map>
 
 #include "accel/wide_node.h"
 #include "base/parallel.h"
@@ -49,13 +50,41 @@ std::vector<Division> divide_cells(const Grid& outer, const CellLists& lists,
     return divisions;
 }
 
+/// Blocks that exist already, by their items: long triangles give many cells the same list.
+class KnownLists {
+  public:
+    /// The blocks with exactly these items; new ones are appended to `runs`.
+    BlockRange find_or_add(const int32_t* items, int64_t count, BlockItems* runs) {
+        const auto next = static_cast<uint32_t>(runs->begin.size() - 1);
+        if (count == 0) return {next, next};
+        uint64_t hash = 1469598103934665603u;
+        for (int64_t k = 0; k < count; ++k)
+            hash = (hash ^ static_cast<uint32_t>(items[k])) * 1099511628211u;
+        const auto [known, is_new] = known_.try_emplace(hash, BlockRange{next, next});
+        if (!is_new && holds(known->second, items, count, *runs)) return known->second;
+        runs->items.insert(runs->items.end(), items, items + count);
+        const auto last = static_cast<int64_t>(runs->items.size());
+        cut_into_runs(*runs, last - count, last);
+        const BlockRange added{next, static_cast<uint32_t>(runs->begin.size() - 1)};
+        if (is_new) known->second = added;
+        return added;
+    }
+
+  private:
+    static bool holds(const BlockRange& range, const int32_t* items, int64_t count,
+                      const BlockItems& runs) {
+        const int64_t first = runs.begin[range.begin], last = runs.begin[range.end];
+        return last - first == count && std::equal(items, items + count, &runs.items[first]);
+    }
+
+    std::unordered_map<uint64_t, BlockRange> known_;
+};
+
 /// Appends the cells of `lists`, whose items are indices of references.
-void append_cells(const CellLists& lists, GridIndex* index, BlockItems* runs) {
-    const auto shift = static_cast<int64_t>(runs->items.size());
-    runs->items.insert(runs->items.end(), lists.items.begin(), lists.items.end());
+void append_cells(const CellLists& lists, KnownLists* known, GridIndex* index, BlockItems* runs) {
     for (size_t cell = 0; cell + 1 < lists.begin.size(); ++cell) {
-        cut_into_runs(*runs, shift + lists.begin[cell], shift + lists.begin[cell + 1]);
-        index->cell_begin.push_back(static_cast<uint32_t>(runs->begin.size() - 1));
+        const int64_t first = lists.begin[cell], count = lists.begin[cell + 1] - first;
+        index->cells.push_back(known->find_or_add(lists.items.data() + first, count, runs));
     }
 }
 
@@ -75,15 +104,16 @@ CellLists without_divided(const CellLists& lists, const std::vector<Division>& d
 void add_divided(const CellLists& lists, const std::vector<PrimRef>& refs, int threads,
                  GridIndex* index, BlockItems* runs) {
     std::vector<Division> divisions = divide_cells(index->outer, lists, refs, threads);
-    append_cells(without_divided(lists, divisions), index, runs);
+    KnownLists known;
+    append_cells(without_divided(lists, divisions), &known, index, runs);
     index->inner_of_cell.assign(divisions.size(), -1);
     for (size_t cell = 0; cell < divisions.size(); ++cell) {
         Division& division = divisions[cell];
         if (division.lists.begin.empty()) continue;
         index->inner_of_cell[cell] = static_cast<int32_t>(index->inner.size());
-        division.grid.first_cell = static_cast<int64_t>(index->cell_begin.size()) - 1;
+        division.grid.first_cell = static_cast<int64_t>(index->cells.size());
         index->inner.push_back(division.grid);
-        append_cells(division.lists, index, runs);
+        append_cells(division.lists, &known, index, runs);
         division = {};
     }
 }
@@ -100,10 +130,10 @@ BlockItems build_grid(const std::vector<PrimRef>& refs, const Bounds& bounds, bo
     index->outer = divide ? best_outer_grid(bounds, refs) : best_grid(bounds, refs);
     BlockItems runs;
     runs.begin.assign(1, 0);
-    index->cell_begin.assign(1, 0);
     const CellLists lists = list_cells(index->outer, refs);
+    KnownLists known;
     if (divide) add_divided(lists, refs, threads, index, &runs);
-    else append_cells(lists, index, &runs);
+    else append_cells(lists, &known, index, &runs);
     for (int32_t& item : runs.items) item = refs[item].item;
     return runs;
 }

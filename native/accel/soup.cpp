@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "accel/soup_source.h"
 #include "base/parallel.h"
 
 namespace trg {
@@ -11,41 +12,15 @@ namespace {
 
 constexpr int64_t kGrain = 1 << 13;
 
-TriangleCorners corners_of(const Mesh& mesh, int64_t triangle) {
-    const Triangle& t = mesh.triangles[triangle];
-    return {{mesh.vertices[t.vertex[0]], mesh.vertices[t.vertex[1]], mesh.vertices[t.vertex[2]]}};
-}
-
-/// Triangles by item number, whether they come from one mesh or from many.
-struct Source {
-    const World* world;                 // of a merged soup
-    const std::vector<PrimOrigin>* origins;
-    const Mesh* mesh;                   // of one mesh
-    int64_t count;
-};
-
-TriangleCorners corners_of(const Source& source, int64_t item) {
-    if (source.mesh) return corners_of(*source.mesh, item);
-    const PrimOrigin& origin = (*source.origins)[item];
-    const Instance& instance = source.world->instances[origin.instance];
-    return corners_of(source.world->meshes[instance.mesh], origin.triangle);
-}
-
-PrimRef ref_of(const TriangleCorners& triangle, int64_t item) {
-    Bounds box = empty_bounds();
-    for (const Vec3& p : triangle.p) box = united(box, p);
-    return make_ref(box, static_cast<int32_t>(item));
-}
-
 /// References to the sound triangles, in order.
-std::vector<PrimRef> gather_refs(const Source& source, int threads) {
+std::vector<PrimRef> gather_refs(const SoupSource& source, int threads) {
     std::vector<PrimRef> refs(source.count);
     std::atomic<int64_t> unsound{0};
     parallel_for(source.count, kGrain, threads, [&](int64_t begin, int64_t end) {
         for (int64_t item = begin; item < end; ++item) {
             const TriangleCorners triangle = corners_of(source, item);
             const bool sound = is_sound(triangle);
-            refs[item] = ref_of(triangle, sound ? item : -1);
+            refs[item] = make_ref(box_of(triangle), sound ? static_cast<int32_t>(item) : -1);
             if (!sound) ++unsound;
         }
     });
@@ -68,7 +43,7 @@ void pack_blocks(AlignedVector<Block>& blocks, const Block& empty, int threads, 
     });
 }
 
-void pack_soup(Soup& soup, const Source& source, const BlockItems& runs,
+void pack_soup(Soup& soup, const SoupSource& source, const BlockItems& runs,
                const SoupSettings& settings) {
     const auto put = [&](auto& block, int64_t k) {
         for (int64_t at = runs.begin[k]; at < runs.begin[k + 1]; ++at) {
@@ -129,7 +104,7 @@ BlockItems index_refs(Soup& soup, std::vector<PrimRef>& refs, int threads) {
     }
 }
 
-void index_soup(Soup& soup, const Source& source, const SoupSettings& settings) {
+void index_soup(Soup& soup, const SoupSource& source, const SoupSettings& settings) {
     std::vector<PrimRef> refs = gather_refs(source, settings.threads);
     soup.triangles = static_cast<int64_t>(refs.size());
     soup.degenerate = source.count - soup.triangles;
@@ -138,6 +113,7 @@ void index_soup(Soup& soup, const Source& source, const SoupSettings& settings) 
     const BlockItems runs = index_refs(soup, refs, settings.threads);
     refs = {};
     pack_soup(soup, source, runs, settings);
+    soup.built_cost = tree_cost(soup.tree);
 }
 
 }  // namespace
@@ -169,7 +145,7 @@ Soup build_merged_soup(const World& world, const std::vector<int32_t>& instances
 
 int64_t soup_nodes(const Soup& soup) {
     return static_cast<int64_t>(soup.tree.nodes.size() + soup.pairs.nodes.size()) +
-           std::max<int64_t>(0, static_cast<int64_t>(soup.grid.cell_begin.size()) - 1);
+           static_cast<int64_t>(soup.grid.cells.size());
 }
 
 int64_t soup_bytes(const Soup& soup) {
@@ -178,7 +154,7 @@ int64_t soup_bytes(const Soup& soup) {
         soup.tree.nodes.size() * sizeof(WideNode) + soup.pairs.nodes.size() * sizeof(PairNode) +
         soup.corner_blocks.size() * sizeof(CornerBlock) +
         soup.plane_blocks.size() * sizeof(PlaneBlock) + soup.origins.size() * sizeof(PrimOrigin) +
-        grid.cell_begin.size() * sizeof(uint32_t) + grid.inner.size() * sizeof(Grid) +
+        grid.cells.size() * sizeof(BlockRange) + grid.inner.size() * sizeof(Grid) +
         grid.inner_of_cell.size() * sizeof(int32_t));
 }
 

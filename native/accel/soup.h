@@ -29,6 +29,7 @@ struct Soup {
     Bounds bounds = empty_bounds();
     int64_t triangles = 0;
     int64_t degenerate = 0;
+    double built_cost = 0;   // of the tree when it was built
 };
 
 struct SoupSettings {
@@ -43,6 +44,16 @@ Soup build_mesh_soup(const Mesh& mesh, const SoupSettings& settings);
 /// The soup of the given instances, all of which have the identity transform.
 Soup build_merged_soup(const World& world, const std::vector<int32_t>& instances,
                        const SoupSettings& settings);
+
+/// Takes the triangles from where the vertices are now (`mesh`; null: the soup is merged from
+/// `world`) and fits the boxes of its tree to them. Returns how much the tree's cost has grown since
+/// it was built. False instead of a number means that the soup must be built anew: it has no tree,
+/// or triangles without area came or may have gone.
+struct Refit {
+    bool possible;
+    double growth;
+};
+Refit refit_soup(Soup& soup, const World& world, const Mesh* mesh, int threads);
 
 /// Nodes of the soup's tree, or cells of its grids.
 int64_t soup_nodes(const Soup& soup);

@@ -24,4 +24,8 @@ struct Tree {
 /// block of at most `settings.block_width` items. The tree does not depend on the number of threads.
 Tree build_tree(std::vector<PrimRef>& refs, const SplitSettings& settings);
 
+/// What a random ray that meets the tree's box is expected to cost, in boxes met: the sum of all
+/// boxes' surfaces over the surface of the whole; 0 without nodes.
+double tree_cost(const Tree& tree);
+
 }  // namespace trg

@@ -78,9 +78,13 @@ TRG_FN bool walk_cells(const Grid& grid, const TracedRay& ray, const float* limi
 /// Calls `visit(block)` for the blocks of the cells along the ray, those of finer grids included.
 template <class Visit>
 TRG_FN bool walk_grid(const GridIndex& index, const TracedRay& ray, const float* limit, Visit visit) {
+    uint32_t last = ~0u;
     const auto visit_blocks = [&](int64_t cell) {
-        for (uint32_t k = index.cell_begin[cell]; k < index.cell_begin[cell + 1]; ++k)
+        const BlockRange blocks = index.cells[cell];
+        if (blocks.begin == last) return false;   // the blocks of the cell before
+        for (uint32_t k = blocks.begin; k < blocks.end; ++k)
             if (visit(k)) return true;
+        if (blocks.begin < blocks.end) last = blocks.begin;
         return false;
     };
     if (index.inner.empty()) return walk_cells(index.outer, ray, limit, visit_blocks);

@@ -6,6 +6,12 @@
 
 namespace trg {
 
+Instance make_instance(int mesh, const Transform& object_to_world) {
+    const bool identity = is_identity(object_to_world);
+    return {mesh, identity, determinant(object_to_world) < 0, object_to_world,
+            identity ? object_to_world : inverse(object_to_world)};
+}
+
 int add_mesh(World& world, Mesh mesh) {
     world.index.reset();
     world.meshes.push_back(std::move(mesh));
@@ -14,9 +20,7 @@ int add_mesh(World& world, Mesh mesh) {
 
 int add_instance(World& world, int mesh, const Transform& object_to_world) {
     world.index.reset();
-    const bool identity = is_identity(object_to_world);
-    world.instances.push_back({mesh, identity, determinant(object_to_world) < 0, object_to_world,
-                               identity ? object_to_world : inverse(object_to_world)});
+    world.instances.push_back(make_instance(mesh, object_to_world));
     return static_cast<int>(world.instances.size()) - 1;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/isa.h"
 #include "geom/ray.h"
 #include "geom/transform.h"
 
@@ -52,21 +53,39 @@ struct WorldIndex;
 struct World {
     AccelKind accel = AccelKind::automatic;
     TriangleTest triangle_test = TriangleTest::watertight;
+    Isa isa = detect_isa();   // what queries and kernels are compiled for
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
-    std::shared_ptr<const WorldIndex> index;
+    std::shared_ptr<WorldIndex> index;
 };
+
+/// A copy of `mesh` placed by `object_to_world`, whose determinant must not be zero.
+Instance make_instance(int mesh, const Transform& object_to_world);
 
 /// Adds a mesh (indices must lie within `vertices`; none are looked at where `shape` is not
 /// triangles); it shows only through instances.
 int add_mesh(World& world, Mesh mesh);
 
-/// Adds a copy of `mesh` placed by `object_to_world`, whose determinant must not be zero.
+/// Adds such a copy to the world.
 int add_instance(World& world, int mesh, const Transform& object_to_world);
 
 /// Builds the index over everything added so far. Triangles with coordinates that are not finite or
 /// exceed 1e18 and triangles of no area are left out and counted as degenerate.
 BuildStats build_world(World& world, int threads);
+
+struct UpdateStats {
+    double seconds = 0;
+    bool rebuilt = false;   // more than was asked for had to be built anew
+    double growth = 1;      // cost of the tree over what it was when it was built
+};
+
+/// Gives instances `first` and on the given places and builds the top level anew. Needs a built
+/// world. Where one of them had been merged with others into one index, everything is built anew.
+UpdateStats move_instances(World& world, int first, const std::vector<Transform>& places, int threads);
+
+/// Gives `mesh` as many vertices as it had and fits its index to them. Needs a built world. The index
+/// is built anew when its cost has grown by half, or when it has no tree.
+UpdateStats move_vertices(World& world, int mesh, std::vector<Vec3> vertices, int threads);
 
 /// Fills `hits` with the nearest hit of each ray, ties by (t, instance, triangle). Needs a built
 /// world; many threads may call it at once; allocates nothing.

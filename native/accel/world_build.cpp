@@ -13,9 +13,9 @@ namespace {
 /// Below this many triangles trying each of them is as quick as any index.
 constexpr int64_t kTinyWorld = 16;
 
-Kernels choose_kernels() {
+Kernels kernels_of([[maybe_unused]] Isa isa) {
 #if defined(TRG_HAS_X86_VARIANTS)
-    switch (detect_isa()) {
+    switch (isa) {
         case Isa::avx512: return avx512::trace_kernels();
         case Isa::avx2: return avx2::trace_kernels();
         default: break;
@@ -121,63 +121,36 @@ Shares share_instances(const World& world) {
     return shares;
 }
 
-struct Assembly {
-    const World& world;
-    WorldIndex& index;
-    const SoupSettings settings;
-    std::vector<Placement> placements;
-    std::vector<Bounds> boxes;
-};
-
-void add_merged(Assembly& assembly, const std::vector<int32_t>& instances) {
-    if (instances.empty()) return;
-    auto soup = std::make_unique<Soup>();
-    int32_t number = -1;
-    if (instances.size() == 1) {
-        number = instances[0];
-        const Instance& only = assembly.world.instances[number];
-        *soup = build_mesh_soup(assembly.world.meshes[only.mesh], assembly.settings);
-    } else {
-        *soup = build_merged_soup(assembly.world, instances, assembly.settings);
-    }
-    assembly.placements.push_back({soup.get(), number, true, {}});
-    assembly.boxes.push_back(soup->bounds);
-    assembly.index.soups.push_back(std::move(soup));
-}
-
-void add_placed(Assembly& assembly, const std::vector<int32_t>& instances) {
-    std::vector<const Soup*> soup_of(assembly.world.meshes.size(), nullptr);
-    for (int32_t number : instances) {
-        const Instance& instance = assembly.world.instances[number];
-        if (!soup_of[instance.mesh]) {
-            auto soup = std::make_unique<Soup>(
-                build_mesh_soup(assembly.world.meshes[instance.mesh], assembly.settings));
-            soup_of[instance.mesh] = soup.get();
-            assembly.index.soups.push_back(std::move(soup));
-        }
-        const Soup& soup = *soup_of[instance.mesh];
-        if (soup.shape == Shape::plane) {
-            assembly.index.unbounded.push_back(place_soup(soup, number, instance));
-            continue;
-        }
-        if (is_empty(soup.bounds)) continue;
-        assembly.placements.push_back(place_soup(soup, number, instance));
-        assembly.boxes.push_back(placed_bounds(soup, instance));
+/// Soups of the meshes that are used, one each, but one for all that are merged.
+void build_soups(const World& world, const SoupSettings& settings, WorldIndex& index) {
+    const auto keep = [&](Soup soup) {
+        index.soups.push_back(std::make_unique<Soup>(std::move(soup)));
+        return index.soups.back().get();
+    };
+    index.soup_of_mesh.assign(world.meshes.size(), nullptr);
+    Shares shares = share_instances(world);
+    if (shares.merged.size() > 1) index.merged = keep(build_merged_soup(world, shares.merged, settings));
+    else shares.placed.insert(shares.placed.end(), shares.merged.begin(), shares.merged.end());
+    for (int32_t number : shares.placed) {
+        Soup*& soup = index.soup_of_mesh[world.instances[number].mesh];
+        if (!soup) soup = keep(build_mesh_soup(world.meshes[world.instances[number].mesh], settings));
     }
 }
 
-void build_top(Assembly& assembly) {
-    WorldIndex& index = assembly.index;
-    if (assembly.placements.size() < 2) {
-        index.placements = std::move(assembly.placements);
-        return;
-    }
+/// Puts the placements into the order of the leaves of a tree over them.
+void build_top(WorldIndex& index, const std::vector<Bounds>& boxes, int threads) {
+    index.top = {};
+    if (index.placements.size() < 2) return;
     std::vector<PrimRef> refs;
-    for (size_t k = 0; k < assembly.boxes.size(); ++k)
-        refs.push_back(make_ref(assembly.boxes[k], static_cast<int32_t>(k)));
-    index.top = build_tree(refs, {1, assembly.settings.threads});
+    refs.reserve(boxes.size());
+    for (size_t k = 0; k < boxes.size(); ++k)
+        refs.push_back(make_ref(boxes[k], static_cast<int32_t>(k)));
+    index.top = build_tree(refs, {1, threads});
+    std::vector<Placement> ordered;
+    ordered.reserve(index.placements.size());
     for (const LeafRange& leaf : index.top.leaves)
-        index.placements.push_back(assembly.placements[refs[leaf.begin].item]);
+        ordered.push_back(index.placements[refs[leaf.begin].item]);
+    index.placements = std::move(ordered);
     index.top.leaves = {};
 }
 
@@ -196,6 +169,29 @@ void count_up(const WorldIndex& index, BuildStats* stats) {
 
 }  // namespace
 
+void place_soups(const World& world, WorldIndex& index, int threads) {
+    index.placements.clear();
+    index.unbounded.clear();
+    std::vector<Bounds> boxes;
+    index.placements.reserve(world.instances.size());
+    boxes.reserve(world.instances.size());
+    if (index.merged && index.merged->triangles > 0) {
+        index.placements.push_back({index.merged, -1, true, {}});
+        boxes.push_back(index.merged->bounds);
+    }
+    for (size_t k = 0; k < world.instances.size(); ++k) {
+        const Instance& instance = world.instances[k];
+        const Soup* soup = index.soup_of_mesh[instance.mesh];
+        if (!soup) continue;
+        const Placement placement = place_soup(*soup, static_cast<int32_t>(k), instance);
+        if (soup->shape == Shape::plane) index.unbounded.push_back(placement);
+        if (is_empty(soup->bounds)) continue;
+        index.placements.push_back(placement);
+        boxes.push_back(placed_bounds(*soup, instance));
+    }
+    build_top(index, boxes, threads);
+}
+
 BuildStats build_world(World& world, int threads) {
     const auto start = std::chrono::steady_clock::now();
     BuildStats stats;
@@ -203,13 +199,11 @@ BuildStats build_world(World& world, int threads) {
     stats.instances = static_cast<int64_t>(world.instances.size());
     auto index = std::make_shared<WorldIndex>();
     index->triangle_test = world.triangle_test;
-    index->kernels = choose_kernels();
+    index->kernels = kernels_of(world.isa);
 
-    Assembly assembly{world, *index, {stats.accel, world.triangle_test, threads}, {}, {}};
-    const Shares shares = share_instances(world);
-    add_merged(assembly, shares.merged);
-    add_placed(assembly, shares.placed);
-    build_top(assembly);
+    index->accel = stats.accel;
+    build_soups(world, {stats.accel, world.triangle_test, threads}, *index);
+    place_soups(world, *index, threads);
 
     count_up(*index, &stats);
     world.index = std::move(index);

@@ -16,11 +16,17 @@ struct Placement {
 
 struct WorldIndex {
     TriangleTest triangle_test = TriangleTest::watertight;
+    AccelKind accel = AccelKind::none;
     std::vector<std::unique_ptr<Soup>> soups;
+    std::vector<Soup*> soup_of_mesh;     // null: not placed, or merged
+    Soup* merged = nullptr;
     std::vector<Placement> placements;   // in the order of the leaves of `top`
     Tree top;                            // over placements; unused when there is only one
     std::vector<Placement> unbounded;    // planes: no box holds them
     Kernels kernels{};
 };
+
+/// Places every soup of `index` where the instances of `world` say, and builds the top level.
+void place_soups(const World& world, WorldIndex& index, int threads);
 
 }  // namespace trg

@@ -41,7 +41,7 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
       frozen_(scene),
       film_(request.rect, request.passes, request.samples,
             choose_tile_size(request.rect, resolve_threads(request.threads))),
-      kernels_(choose_kernel_set(frozen_.features())),
+      kernels_(choose_kernel_set(frozen_.features(), scene.world.isa)),
       view_{frozen_.view(), request.width, request.height, request.seed, request.max_bounces},
       work_count_(count_passes(request.samples) * film_.tile_count()),
       start_(Clock::now()),

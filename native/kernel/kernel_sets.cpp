@@ -8,9 +8,9 @@ namespace trg {
 
 namespace {
 
-const KernelSet* sets_of_machine(int* count) {
+const KernelSet* sets_of([[maybe_unused]] Isa isa, int* count) {
 #if defined(TRG_HAS_X86_VARIANTS)
-    switch (detect_isa()) {
+    switch (isa) {
         case Isa::avx512: return avx512::kernel_sets(count);
         case Isa::avx2: return avx2::kernel_sets(count);
         default: break;
@@ -21,9 +21,9 @@ const KernelSet* sets_of_machine(int* count) {
 
 }  // namespace
 
-const KernelSet& choose_kernel_set(uint32_t features) {
+const KernelSet& choose_kernel_set(uint32_t features, Isa isa) {
     int count;
-    const KernelSet* sets = sets_of_machine(&count);
+    const KernelSet* sets = sets_of(isa, &count);
     for (int k = 0; k < count; ++k)
         if ((features & ~sets[k].features) == 0) return sets[k];
     return sets[count - 1];

@@ -3,6 +3,7 @@
 
 #include <atomic>
 
+#include "base/isa.h"
 #include "kernel/path_queues.h"
 
 namespace trg {
@@ -16,8 +17,8 @@ struct KernelSet {
                          const std::atomic<bool>& cancelled, RayCounts* counts);
 };
 
-/// The smallest set that serves `features`, compiled for the best instruction set of this machine.
-const KernelSet& choose_kernel_set(uint32_t features);
+/// The smallest set that serves `features`, compiled for `isa`.
+const KernelSet& choose_kernel_set(uint32_t features, Isa isa);
 
 /// Names of all sets, smallest first, separated by spaces.
 const char* kernel_set_names();

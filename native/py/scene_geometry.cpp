@@ -88,20 +88,6 @@ PyObject* add_mesh_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     });
 }
 
-/// `source`, 12 numbers, as a map; `row` names it in the message of the ArgumentError that a
-/// singular or non-finite one gives.
-Transform checked_transform(const float* source, const char* name, int64_t row) {
-    Transform transform;
-    std::memcpy(transform.m, source, sizeof transform.m);
-    for (int k = 0; k < 12; ++k)
-        if (!std::isfinite(source[k])) throw ArgumentError(row_text(name, row) + "is not finite");
-    const Transform back = inverse(transform);
-    bool invertible = determinant(transform) != 0;
-    for (int k = 0; k < 12; ++k) invertible = invertible && std::isfinite(back.m[k / 4][k % 4]);
-    if (!invertible) throw ArgumentError(row_text(name, row) + "is singular");
-    return transform;
-}
-
 /// Instances of one mesh that share `slot_materials`, to be added all or none.
 struct InstanceRequest {
     long mesh;
@@ -194,6 +180,18 @@ PyObject* build_method(PyObject* self, PyObject* args, PyObject* kwargs) {
 }
 
 }  // namespace
+
+Transform checked_transform(const float* source, const char* name, int64_t row) {
+    Transform transform;
+    std::memcpy(transform.m, source, sizeof transform.m);
+    for (int k = 0; k < 12; ++k)
+        if (!std::isfinite(source[k])) throw ArgumentError(row_text(name, row) + "is not finite");
+    const Transform back = inverse(transform);
+    bool invertible = determinant(transform) != 0;
+    for (int k = 0; k < 12; ++k) invertible = invertible && std::isfinite(back.m[k / 4][k % 4]);
+    if (!invertible) throw ArgumentError(row_text(name, row) + "is singular");
+    return transform;
+}
 
 PyMethodDef kSceneGeometryMethods[] = {
     {"add_mesh", as_method(add_mesh_method), METH_VARARGS | METH_KEYWORDS,

@@ -4,6 +4,7 @@
 
 #include "py/scene_geometry.h"
 #include "py/scene_queries.h"
+#include "py/scene_updates.h"
 
 namespace trg::py {
 
@@ -22,6 +23,18 @@ AccelKind parse_accel(const char* name) {
                         std::string(name));
 }
 
+/// "auto" is the best set of this machine.
+Isa parse_instruction_set(const char* name) {
+    if (std::strcmp(name, "auto") == 0) return detect_isa();
+    for (const Isa isa : {Isa::baseline, Isa::avx2, Isa::avx512}) {
+        if (std::strcmp(name, isa_name(isa)) != 0) continue;
+        if (isa <= detect_isa()) return isa;
+        throw ArgumentError("instruction_set: this machine has no " + std::string(name));
+    }
+    throw ArgumentError("instruction_set: expected auto, baseline, avx2 or avx512, got " +
+                        std::string(name));
+}
+
 TriangleTest parse_triangle_test(const char* name) {
     if (std::strcmp(name, "watertight") == 0) return TriangleTest::watertight;
     if (std::strcmp(name, "classic") == 0) return TriangleTest::classic;
@@ -32,11 +45,13 @@ PyObject* new_scene(PyTypeObject* type, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         const char* accel = "auto";
         const char* triangle_test = "watertight";
-        const char* const names[] = {"accel", "triangle_test", nullptr};
-        parse_arguments(args, kwargs, "|ss", names, &accel, &triangle_test);
+        const char* instruction_set = "auto";
+        const char* const names[] = {"accel", "triangle_test", "instruction_set", nullptr};
+        parse_arguments(args, kwargs, "|sss", names, &accel, &triangle_test, &instruction_set);
         auto scene = std::make_unique<Scene>();
         scene->world.accel = parse_accel(accel);
         scene->world.triangle_test = parse_triangle_test(triangle_test);
+        scene->world.isa = parse_instruction_set(instruction_set);
         auto allocate = reinterpret_cast<allocfunc>(PyType_GetSlot(type, Py_tp_alloc));
         PyRef self = checked(allocate(type, 0));
         as_scene(self.get())->scene = scene.release();
@@ -60,7 +75,7 @@ void add_methods(PyObject* type, PyMethodDef* methods) {
 }
 
 PyType_Slot kSceneSlots[] = {
-    {Py_tp_doc, const_cast<char*>("Scene(accel='auto', triangle_test='watertight')\n\n"
+    {Py_tp_doc, const_cast<char*>("Scene(accel='auto', triangle_test='watertight', instruction_set='auto')\n\n"
                                   "Geometry, its index and the tables of shading.")},
     {Py_tp_new, reinterpret_cast<void*>(new_scene)},
     {Py_tp_dealloc, reinterpret_cast<void*>(free_scene)},
@@ -96,6 +111,7 @@ SceneChange::~SceneChange() { object_->changing = false; }
 void add_scene_type(PyObject* module) {
     PyRef type = checked(PyType_FromModuleAndSpec(module, &kSceneSpec, nullptr));
     add_methods(type.get(), kSceneGeometryMethods);
+    add_methods(type.get(), kSceneUpdateMethods);
     add_methods(type.get(), kSceneQueryMethods);
     add_methods(type.get(), kSceneRenderMethods);
     if (PyModule_AddObjectRef(module, "Scene", type.get()) != 0) throw PythonError{};

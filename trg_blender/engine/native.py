@@ -68,6 +68,17 @@ class BuildStats:
     """why this accelerator"""
 
 
+@dataclass(frozen=True, slots=True)
+class UpdateStats:
+    """What a change of a built scene took."""
+
+    seconds: float
+    rebuilt: bool
+    """more than what moved had to be built anew"""
+    growth: float
+    """cost of the moved mesh's tree over what it was when it was built; 0 where it has none"""
+
+
 class RayScene:
     """Triangle meshes that rays can be traced against, without materials or light.
 
@@ -77,8 +88,13 @@ class RayScene:
     row. Queries may run in several Python threads at once; a change meanwhile raises RuntimeError.
     """
 
-    def __init__(self, accel: str = "auto", triangle_test: str = "watertight") -> None:
-        self._scene = load_native().Scene(accel=accel, triangle_test=triangle_test)
+    def __init__(
+        self, accel: str = "auto", triangle_test: str = "watertight", instruction_set: str = "auto"
+    ) -> None:
+        """`instruction_set` is auto (the machine's best), baseline, avx2 or avx512."""
+        self._scene = load_native().Scene(
+            accel=accel, triangle_test=triangle_test, instruction_set=instruction_set
+        )
 
     def add_mesh(self, vertices: ArrayLike, triangles: ArrayLike) -> int:
         """Index of a mesh with `vertices` float32 (n, 3) and `triangles` int32 (m, 3)."""
@@ -111,6 +127,28 @@ class RayScene:
         matrix = None if transform is None else _contiguous("transform", transform, np.float32)
         instance: int = self._scene.add_instance(mesh, matrix)
         return instance
+
+    def add_instances(self, mesh: int, transforms: ArrayLike) -> int:
+        """Index of the first of as many copies of `mesh` as `transforms` float32 (n, 3, 4) has rows."""
+        first: int = self._scene.add_instances(mesh, _contiguous("transforms", transforms, np.float32))
+        return first
+
+    def update_transforms(self, first: int, transforms: ArrayLike, threads: int = 0) -> UpdateStats:
+        """Moves instances `first` and on of a built scene to `transforms` float32 (n, 3, 4).
+
+        Only the top level is built anew, unless one of them was merged with others that stood still.
+        """
+        rows = _contiguous("transforms", transforms, np.float32)
+        return UpdateStats(**self._scene.update_transforms(first, rows, threads))
+
+    def update_vertices(self, mesh: int, vertices: ArrayLike, threads: int = 0) -> UpdateStats:
+        """Moves the vertices of `mesh` of a built scene to float32 (n, 3), as many as it had.
+
+        The boxes of its tree are fitted to them; the tree is built anew when its cost has grown by
+        more than half, other accelerators always are.
+        """
+        rows = _contiguous("vertices", vertices, np.float32)
+        return UpdateStats(**self._scene.update_vertices(mesh, rows, None, threads))
 
     def build(self, threads: int = 0) -> BuildStats:
         """Builds the index over everything added; `threads` 0 takes all cores."""
