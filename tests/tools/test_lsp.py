@@ -179,6 +179,9 @@ def test_hover_on_names_of_the_program(client: LspClient):
     assert 'Ball(place ~ "vec3", size = ...)' in shown
     assert "Puts a ball at a place." in shown
     assert "place: vec3" in hovered(client, PROGRAM, "sphere(pla")
+    exported = '/* How big. */\nexport size = 3 ~ "num" ~ range(0, 10);\na = size;'
+    assert "size: num" in hovered(client, exported, "a = siz")
+    assert "How big." in hovered(client, exported, "a = siz")
     assert "repeats" in hovered(client, "while (1) { break; }", "whi")
     assert hovered(client, "a = 1 + 2;", "1 +") == ""
 

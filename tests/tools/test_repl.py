@@ -79,6 +79,11 @@ def test_an_include_runs_once_and_its_names_stay():
     assert values_of(*entries)[-1] == "vec3(2, 3, 0)"
 
 
+def test_an_exported_parameter_is_a_variable_with_its_default_and_may_be_exported_again():
+    entries = ('export r = 3 ~ "num" ~ range(0, 10);', "r", "export r = 4;", "r", "a = r + 1;", "a")
+    assert [v for v in values_of(*entries) if v is not None] == ["3", "4", "5"]
+
+
 def test_an_entry_that_does_not_compile_leaves_nothing():
     session = session_of()
     (found,) = session.enter("b = 1; c = missing;").diagnostics

@@ -6,6 +6,7 @@ from . import ast
 from .analysis import Analysis, Word
 from .bind import HOST
 from .completion import function_text, receiver
+from .exports import doc_comment
 from .resolve import FunctionInfo
 from .source import Span
 from .words import KEYWORD_DOCS, SPECIAL_DOCS, TYPE_DOCS, signature_text
@@ -69,23 +70,20 @@ def _variable_text(analysis: Analysis, name: str, context: FunctionInfo | None) 
     value = analysis.value_of(name, context)
     parameter = context is not None and any(p.name == name for p in context.node.parameters)
     what = "parameter" if parameter else ("global variable" if context is None else "local variable")
+    comment = "" if context is not None else _comment_of(analysis, name)
     if isinstance(value, ast.Function):
-        place = analysis.resolution.globals.get(name) if context is None else None
-        comment = "" if place is None else comment_above(analysis, place)
         return _code(function_text(name, value), comment or f"A function in a {what}.")
     kind = analysis.kind_of_variable(name, context)
-    return _code(f"{name}: {kind}" if kind else name, f"A {what}. {TYPE_DOCS.get(kind, '')}".strip())
+    meaning = f"A {what}: {TYPE_DOCS[kind]}." if kind in TYPE_DOCS else f"A {what}."
+    return _code(f"{name}: {kind}" if kind else name, comment or meaning)
 
 
-def comment_above(analysis: Analysis, place: Span) -> str:
-    """The `//` lines directly above a place, without the slashes."""
-    lines = analysis.sources[place.file].lines if place.file in analysis.sources else ()
-    found: list[str] = []
-    for line in reversed(lines[: place.line - 1]):
-        if not line.strip().startswith("//"):
-            break
-        found.append(line.strip().lstrip("/").strip())
-    return "\n".join(reversed(found))
+def _comment_of(analysis: Analysis, name: str) -> str:
+    """The comment above the first assignment to a global, or behind it."""
+    place = analysis.resolution.globals.get(name)
+    if place is None or place.file not in analysis.sources:
+        return ""
+    return doc_comment(analysis.sources[place.file], place)
 
 
 def _code(signature: str, doc: str) -> str:

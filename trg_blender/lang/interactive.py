@@ -15,6 +15,7 @@ from .bind import HOST
 from .cursor import MAX_DEPTH
 from .diagnostics import Diagnostic, DiagnosticBag, Notice, ProgramError
 from .emit_expr import ProgramParts
+from .exports import read_exports
 from .faults import FaultReader
 from .files import FileResolver
 from .helpers import PAUSE, Helpers
@@ -64,7 +65,7 @@ class Interactive:
         self._plain: set[int] = set()
         """Indices of functions whose translation cannot suspend."""
         self.sources: dict[str, SourceFile] = {}
-        start = Program("<0>", {}, resolver, (), (), {}, {}, {}, (), ())
+        start = Program("<0>", {}, resolver, (), (), {}, {}, {}, (), (), {})
         self._rt = Runtime(start, options)
         self._rt.scene = SceneObject(self._rt)
         self._rt.random = Pcg32(0)
@@ -124,10 +125,12 @@ class Interactive:
         loader.trees[before] = _keeping_value(loader.trees[before])
         new = {tree.name for tree in loader.trees[before:]}
         resolution = self._resolve(loader.trees, bag)
+        exports = read_exports(loader.trees[before:], loader.sources, bag)
         if bag.error_count:
             raise ProgramError(without_consequences(bag))
         self.sources.update(loader.sources)
         self._adopt(loader.trees, resolution, before, bag)
+        self._rt.program.exports.update(exports)
         return [d for d in bag.in_order() if d.span.file in new or d.code == "W704"]
 
     @staticmethod

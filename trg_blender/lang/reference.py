@@ -10,6 +10,7 @@ import re
 from pathlib import Path
 
 from .bind import HOST
+from .exports import TYPES as EXPORT_TYPES
 from .files import bundled_library
 from .messages import MESSAGES
 from .parse_expr import OVERLOADS
@@ -66,12 +67,17 @@ def reference_html() -> str:
 
 def _words() -> list[Part]:
     rows = [(name, KEYWORD_DOCS[name]) for name in keyword_names()]
+    types = ", ".join(f"`{name}`" for name in EXPORT_TYPES)
     special = [(name, doc) for name, doc in SPECIAL_DOCS.items()]
     return [
         Heading(2, "Keywords"),
         Table(("keyword", "meaning"), tuple(rows)),
         Paragraph("These words are ordinary names except at the beginning of a statement:"),
         Table(("word", "meaning"), tuple(special)),
+        Paragraph(
+            f"The types of an exported parameter are {types}; a num may "
+            'have a `range(low, high, step)`, a str a `choice("a", "b")`.'
+        ),
     ]
 
 
