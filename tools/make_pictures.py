@@ -50,7 +50,7 @@ PICTURES = {
     "stl_garden": alone("stl_garden", (720, 405), 224),
     "stl_arrangements": alone("stl_arrangements", (720, 405), 160),
     "stl_cameras": Picture(
-        tuple(("stl_cameras", frame) for frame in (5, 21, 49, 96, 101, 131)), (360, 203), 144, 3
+        tuple(("stl_cameras", frame) for frame in (3, 19, 49, 96, 103, 134)), (360, 203), 144, 3
     ),
 }  # fmt: skip
 

@@ -26,7 +26,7 @@ def test_pictures_are_png_of_at_most_400_kilobytes():
         data = (DOCS / name).read_bytes()
         assert data.startswith(b"\x89PNG\r\n\x1a\n") and len(data) <= 400_000
         width, height = struct.unpack(">II", data[16:24])
-        assert 600 <= width <= 1100 and 300 <= height <= 700
+        assert 600 <= width <= 1100 and 250 <= height <= 700
 
 
 def test_the_pictures_of_the_readme_are_there():
