@@ -75,6 +75,18 @@ def test_a_program_of_the_project_keeps_its_tree_and_comments(path: Path):
         check_facts(text)
 
 
+AS_THE_PAPER = ("paper.trg", "fence.trg")
+"""The paper's program, and the one made from it, keep the paper's own spacing."""
+
+
+@pytest.mark.parametrize(
+    "path", [path for path in OWN if path.name not in AS_THE_PAPER], ids=lambda p: f"{p.parent.name}/{p.name}"
+)
+def test_examples_and_library_are_in_the_standard_layout(path: Path):
+    text = path.read_text(encoding="utf-8")
+    assert format_source(text, path.name) == text, f"run: trg fmt {path.relative_to(ROOT)}"
+
+
 EXTENSIONS = {
     "lists": ("l=[1,[2 , 3],[ ]] ;l [ 0 ]=l[1] [0];", "l = [1, [2, 3], []];\nl[0] = l[1][0];\n"),
     "for in": ("for(x  in [1,2])f(x);", "for (x in [1, 2]) f(x);\n"),
