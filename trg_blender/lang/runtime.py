@@ -28,7 +28,7 @@ BLOCKS_OF_THING = 16
 BYTES_OF_THING = 1024
 """What a shape or light may take, its records included."""
 _HOLDS_SOMETHING = 2_000
-_TEXT_WORK_CHECK = 64 * 1024 * 1024
+_TEXT_WORK_CHECK = 16 * 1024 * 1024
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -163,11 +163,11 @@ class Runtime:
         self.work_on_text(size)
 
     def work_on_text(self, size: int) -> None:
-        """Long texts cost time that steps do not see: look at the clock now and then."""
+        """Long texts and copies cost time and memory that steps do not see: check now and then."""
         self._text_work += size
         if self._text_work > _TEXT_WORK_CHECK:
             self._text_work = 0
-            self.check_time()
+            self.check_limits()
 
     # Places.
 
