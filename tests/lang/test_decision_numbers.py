@@ -136,7 +136,10 @@ def test_decision_70_limits_depth_and_number_of_files(tmp_path, run) -> None:
     assert run("".join(f'include("m{n}.trg");\n' for n in range(40)), resolver=many).error == ("E321", "33:9")
 
 
-@pytest.mark.parametrize("name", ["../a.trg", "/a.trg", "C:/a.trg", "C:a.trg", "\\\\\\\\host\\\\a.trg", "file:a.trg", "http://x/a.trg"])
+@pytest.mark.parametrize(
+    "name",
+    ["../a.trg", "/a.trg", "C:/a.trg", "C:a.trg", "\\\\\\\\host\\\\a.trg", "file:a.trg", "http://x/a.trg"],
+)
 def test_decision_71_no_include_leads_out(name, tmp_path, run) -> None:
     assert run(f'include("{name}");', resolver=_folder(tmp_path, a=";")).error == ("E510", "1:9")
 
@@ -212,7 +215,9 @@ def test_decision_78_related_points_at_the_argument(text, place, run) -> None:
 
 
 def test_decision_79_an_error_ends_the_program_and_frames_before_it_stay() -> None:
-    session = Session(compile_source("S = scene(); S.Render(); x = 1 / 0; S.Render();", "m.trg"), HostOptions())
+    session = Session(
+        compile_source("S = scene(); S.Render(); x = 1 / 0; S.Render();", "m.trg"), HostOptions()
+    )
     session.next_frame()
     ended = session.next_frame()
     assert ended.error is not None and (ended.error.span.line, ended.error.span.col) == (1, 30)

@@ -5,8 +5,8 @@ from __future__ import annotations
 
 import pytest
 
-from trg_blender.commands import run as run_command
 from trg_blender.cli import main
+from trg_blender.commands import run as run_command
 from trg_blender.lang import EndEvent, HostOptions, ParameterError, Session, compile_source, parse_parameter
 
 PROGRAM = """\
@@ -37,7 +37,13 @@ def test_exports_say_everything_without_running() -> None:
     exports = compile_source(PROGRAM, "m.trg").exports
     assert list(exports) == ["radius", "count", "tint", "look", "fog", "shift", "label"]
     radius, count, tint = exports["radius"], exports["count"], exports["tint"]
-    assert (radius.type, radius.default, radius.low, radius.high, radius.step) == ("num", 3.0, 0.0, 10.0, None)
+    assert (radius.type, radius.default, radius.low, radius.high, radius.step) == (
+        "num",
+        3.0,
+        0.0,
+        10.0,
+        None,
+    )
     assert (radius.span.line, radius.span.col) == (3, 8)
     assert (count.type, count.step) == ("num", 1.0)
     assert (tint.type, tint.default) == ("colour", (1.0, 0.5, 0.0))
@@ -126,10 +132,15 @@ def test_error(fact, run) -> None:
      ("fog=1", 1.0), ("fog=off", 0.0), ("shift=-1,2,3e0", (-1.0, 2.0, 3.0)), ("label=a=b", "a=b")],
 )  # fmt: skip
 def test_texts_are_read_by_the_parameters_type(text, expected) -> None:
-    assert parse_parameter(compile_source(PROGRAM, "m.trg"), text) == (text.partition("=")[0].strip(), expected)
+    assert parse_parameter(compile_source(PROGRAM, "m.trg"), text) == (
+        text.partition("=")[0].strip(),
+        expected,
+    )
 
 
-@pytest.mark.parametrize("text", ["radius=x", "radius=1,2,3", "radius=nan", "tint=1,0", "look=tin", "fog=2", "zzz=1"])
+@pytest.mark.parametrize(
+    "text", ["radius=x", "radius=1,2,3", "radius=nan", "tint=1,0", "look=tin", "fog=2", "zzz=1"]
+)
 def test_texts_that_do_not_fit_are_refused(text) -> None:
     with pytest.raises(ParameterError):
         parse_parameter(compile_source(PROGRAM, "m.trg"), text)
@@ -143,7 +154,9 @@ def test_trg_run_sets_parameters(tmp_path, capsys) -> None:
 
 
 @pytest.mark.parametrize("command", ["run", "check"])
-@pytest.mark.parametrize(("setting", "said"), [("raduis=4", "radius"), ("radius=40", "10"), ("radius", "NAME=VALUE")])
+@pytest.mark.parametrize(
+    ("setting", "said"), [("raduis=4", "radius"), ("radius=40", "10"), ("radius", "NAME=VALUE")]
+)
 def test_a_wrong_set_is_wrong_usage(command, setting, said, tmp_path, capsys) -> None:
     file = tmp_path / "m.trg"
     file.write_text(PROGRAM)

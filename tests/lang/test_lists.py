@@ -128,12 +128,16 @@ def test_elements_of_lists_that_are_gone_do_not_count(run) -> None:
 
 
 def test_removed_elements_do_not_count(run) -> None:
-    text = "l = []; for (i = 0; i < 900; i++) { l.append(i); l.append(i); l.pop(); l.remove(0); } print(len(l));"
+    text = (
+        "l = []; for (i = 0; i < 900; i++) { l.append(i); l.append(i); l.pop(); l.remove(0); } print(len(l));"
+    )
     assert run(text, limits=Limits(max_elements=10)).output == ["0"]
 
 
 def test_for_in_counts_steps_in_functions_too(run) -> None:
-    text = "l = []; for (i = 0; i < 100; i++) l.append(i); f = function() { while (1) for (x in #l) { } }; f();"
+    text = (
+        "l = []; for (i = 0; i < 100; i++) l.append(i); f = function() { while (1) for (x in #l) { } }; f();"
+    )
     assert run(text, limits=Limits(max_steps=20_000)).error[0] == "E601"
 
 
@@ -143,5 +147,7 @@ def test_a_loop_over_a_list_may_render(run) -> None:
 
 
 def test_functions_in_lists_may_render(run) -> None:
-    outcome = run("S = scene(); l = [function() { #S.Render(); return 5; }]; print(l[0]()); for (f in l) print(f());")
+    outcome = run(
+        "S = scene(); l = [function() { #S.Render(); return 5; }]; print(l[0]()); for (f in l) print(f());"
+    )
     assert len(outcome.frames) == 2 and outcome.output == ["5", "5"]

@@ -135,7 +135,7 @@ class RenderCommand:
         self._set_parameters()
 
     def _set_parameters(self) -> None:
-        """Stores what --set asks for in the scene. Raises RenderFailed; a wrong program fails when it runs."""
+        """Stores what --set asks for in the scene. Raises RenderFailed; a wrong program fails later."""
         from ..engine.run_text import read_program
         from ..engine.to_blender.parameters import store_parameters
 

@@ -124,7 +124,8 @@ class _Reader:
         node, assignment = self.node, self.node.assignment
         default = constant_of(assignment.value)
         if default is None:
-            return self._error("E330", assignment.value.span)
+            self._error("E330", assignment.value.span)
+            return None
         target = assignment.target
         assert isinstance(target, ast.Path)
         kind = self._type(default)
@@ -135,7 +136,8 @@ class _Reader:
         limited = export if node.limits is None else self._limited(export, node.limits)
         if limited is not None and limited.fit(default) is None:
             values = {"name": target.name, "wanted": limited.wanted, "value": shown_value(default)}
-            return self._error("E332", assignment.value.span, **values)
+            self._error("E332", assignment.value.span, **values)
+            return None
         return limited
 
     def _type(self, default: ParameterValue) -> str | None:
@@ -158,7 +160,8 @@ class _Reader:
             made = _with_range(export, values) if name == "range" else _with_choices(export, values)
             if made is not None:
                 return made
-        return self._error("E334", limits.span, name=name, wanted=wanted, usage=usage)
+        self._error("E334", limits.span, name=name, wanted=wanted, usage=usage)
+        return None
 
     def _error(self, code: str, span: Span, **values: object) -> None:
         self.bag.add(Notice(code, span, values))
@@ -205,7 +208,9 @@ def shown_value(value: object) -> str:
     """A value given by a host, short, for messages."""
     if isinstance(value, tuple | list):
         return f"vec3({', '.join(map(shown_value, value))})"
-    return f'"{value[:60]}"' if isinstance(value, str) else f"{value:g}" if _finite(value) is not None else "?"
+    return (
+        f'"{value[:60]}"' if isinstance(value, str) else f"{value:g}" if _finite(value) is not None else "?"
+    )
 
 
 def doc_comment(source: SourceFile, span: Span) -> str:

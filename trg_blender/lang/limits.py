@@ -48,7 +48,7 @@ class HostOptions:
     language: str = "en"
     """Language of messages: `en` or `ru`."""
     parameters: Mapping[str, object] = field(default_factory=dict)
-    """Values of exported parameters by name: numbers, texts, triples of numbers. Others keep their default."""
+    """Values of exported parameters by name: numbers, texts, triples of numbers."""
     strict_files: bool = False
     """A missing texture or model is an error instead of a warning."""
 

@@ -77,8 +77,8 @@ MESSAGES: dict[str, tuple[str, str]] = {
         "'export' пишется только на верхнем уровне программы",
     ),
     "E231": (
-        "expected range(low, high) or choice(\"a\", \"b\")",
-        "здесь нужно range(от, до) или choice(\"a\", \"b\")",
+        'expected range(low, high) or choice("a", "b")',
+        'здесь нужно range(от, до) или choice("a", "b")',
     ),
     "E301": ("'{name}' is not a variable of this function", "'{name}' - не переменная этой функции"),
     "E302": ("'{name}' is not defined", "имя '{name}' не определено"),

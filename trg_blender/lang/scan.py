@@ -10,7 +10,9 @@ from typing import NamedTuple
 from .diagnostics import DiagnosticBag, Notice
 from .source import SourceFile, Span
 
-KEYWORDS = frozenset("if else while for in switch case default break continue return function operator".split())
+KEYWORDS = frozenset(
+    "if else while for in switch case default break continue return function operator".split()
+)
 RESERVED_WORDS = {"true": "write_1", "false": "write_0"}
 MAX_NUMBER_LENGTH = 64
 MAX_STRING_LENGTH = 65_536

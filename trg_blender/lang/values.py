@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from .runtime import Runtime
-    from .source import Span
 
 FIELD = "T_"
 ARITHMETIC: Mapping[str, Callable[..., object]] = {

@@ -19,10 +19,10 @@ def offer_parameters(scene: bpy.types.Scene, program: lang.Program) -> None:
     stored = _stored(scene)
     if stored is None:
         return
-    for name in list(stored.keys()):
-        if name not in program.exports:
-            del stored[name]
-    for name, export in program.exports.items():
+    gone = set(stored.keys()) - set(program.exports)
+    for name in gone:
+        del stored[name]
+    for export in program.exports.values():
         _offer(stored, export)
 
 
@@ -37,9 +37,11 @@ def _offer(stored: Any, export: lang.Export) -> None:
     looks = _looks(export)
     shown = stored.id_properties_ui(name)
     known = shown.as_dict()
-    if any(known.get(key) != value for key, value in looks.items() if key != "items"):
-        shown.update(**looks)
-    elif "items" in looks and [i[0] for i in known.get("items", ())] != list(export.choices):
+    if (
+        any(known.get(key) != value for key, value in looks.items() if key != "items")
+        or "items" in looks
+        and [i[0] for i in known.get("items", ())] != list(export.choices)
+    ):
         shown.update(**looks)
 
 
