@@ -66,7 +66,7 @@ struct RelativeCorners {
     Vec3d a, b, c;
 };
 
-TRG_FN RelativeCorners relative_corners(const CornerBlock& block, int lane, const TracedRay& ray) {
+TRG_FN RelativeCorners relative_corners(const CornerBlock& block, int lane, const ExactRay& ray) {
     return {corner_of(block, 0, lane) - ray.origin_d, corner_of(block, 1, lane) - ray.origin_d,
             corner_of(block, 2, lane) - ray.origin_d};
 }
@@ -95,24 +95,26 @@ TRG_FN bool is_inside(const RelativeCorners& p, Vec3d direction) {
 }
 
 /// Distance to the plane of a lane's triangle; NaN or infinite when the ray runs within it.
-TRG_FN double plane_distance(const CornerBlock& block, int lane, const TracedRay& ray) {
+TRG_FN double plane_distance(const CornerBlock& block, int lane, const ExactRay& ray) {
     const Vec3d p0 = corner_of(block, 0, lane);
     const Vec3d n = cross(corner_of(block, 1, lane) - p0, corner_of(block, 2, lane) - p0);
     return dot(n, p0 - ray.origin_d) / dot(n, ray.direction_d);
 }
 
 /// `t` no nearer and no farther than the corners: rays almost within the plane have no better answer.
+/// What rounding alone puts beyond them stays, so that no filter has a say in the distance.
 TRG_FN double within_corners(double t, const RelativeCorners& p, Vec3d direction) {
     const double scale = 1.0 / dot(direction, direction);
     const double a = dot(p.a, direction) * scale, b = dot(p.b, direction) * scale;
     const double c = dot(p.c, direction) * scale;
     const double near_ab = a < b ? a : b, far_ab = a < b ? b : a;
     const double near = near_ab < c ? near_ab : c, far = far_ab > c ? far_ab : c;
-    return t < near ? near : t > far ? far : t;
+    const double size = std::fmax(std::fabs(near), std::fabs(far)) * 0x1p-28;
+    return t < near - size ? near : t > far + size ? far : t;
 }
 
 /// Distance to a possible lane; NaN when it is not met after all.
-TRG_FN float lane_distance(const CornerBlock& block, int lane, bool certain, const TracedRay& ray) {
+TRG_FN float lane_distance(const CornerBlock& block, int lane, bool certain, const ExactRay& ray) {
     const double t = plane_distance(block, lane, ray);
     if (certain) return static_cast<float>(t);
     const RelativeCorners corners = relative_corners(block, lane, ray);
@@ -146,7 +148,7 @@ struct Barycentrics {
 
 TRG_FN float unit_range(double x) { return static_cast<float>(x < 0 ? 0 : x > 1 ? 1 : x); }
 
-TRG_FN Barycentrics coordinates_of(const CornerBlock& block, int lane, const TracedRay& ray) {
+TRG_FN Barycentrics coordinates_of(const CornerBlock& block, int lane, const ExactRay& ray) {
     const EdgeFunctions e = edge_functions(relative_corners(block, lane, ray), ray.direction_d);
     const double sum = e.u + e.v + e.w;
     if (sum == 0) return {0.0f, 0.0f};

@@ -3,6 +3,7 @@
 #include "accel/test_classic.h"
 #include "accel/test_shape.h"
 #include "accel/test_watertight.h"
+#include "accel/trace_packet.h"
 #include "accel/walk_grid.h"
 #include "accel/walk_pairs.h"
 #include "accel/walk_tree.h"
@@ -151,18 +152,97 @@ TRG_FN bool is_hidden(const WorldIndex& index, const Ray& ray) {
     return world_hides<Block>(index, traced, scaled.ray.t_max);
 }
 
+/// The only soup of a world without instances, when packets can walk it; else null.
+TRG_FN const Soup* packet_soup(const WorldIndex& index) {
+    if (index.placements.size() != 1 || !index.unbounded.empty()) return nullptr;
+    if (!index.placements[0].identity) return nullptr;
+    const Soup& soup = *index.placements[0].soup;
+    return takes_packets(soup) ? &soup : nullptr;
+}
+
+TRG_FN Hit resolve_hit(const Search& search, const ExactRay& ray) {
+    if (search.prim < 0) return no_hit();
+    const Barycentrics at =
+        coordinates_of(*static_cast<const CornerBlock*>(search.block), search.lane, ray);
+    const PrimOrigin origin = origin_of(*search.placement, search.prim);
+    if (!(search.t < HUGE_VALF)) return no_hit();
+    return {search.t, at.u, at.v, origin.triangle, origin.instance};
+}
+
+/// Packets of one batch: after some that parted, the rest of the rays go alone.
+struct PacketTrials {
+    const Soup* soup;
+    int failures_left = 2;
+    bool go() const { return soup && failures_left > 0; }
+};
+
+/// Ends the search of one ray of a packet that parted.
+TRG_FN void finish_search(const Ray& ray, const Soup& soup, Search& search) {
+    const TracedRay traced = prepare_ray(ray.origin, ray.direction, ray.t_min > 0 ? ray.t_min : 0);
+    search_soup<CornerBlock>(soup, traced, search);
+}
+
+/// Traces kPacketRays rays together; false, with nothing done, when they do not go together.
+TRG_FN bool closest_hits(const WorldIndex& index, PacketTrials& trials, const Ray* rays, Hit* hits) {
+    RayPacket packet;
+    const Soup& soup = *trials.soup;
+    if (!make_packet(rays, reach_of(soup.bounds), packet)) return false;
+    PacketSearch search;
+    start_search(packet, search);
+    for (Search& one : search.ray) one.current = index.placements.data();
+    if (!search_soup(soup, packet, search)) {
+        --trials.failures_left;
+        for (int k = 0; k < kPacketRays; ++k) finish_search(rays[k], soup, search.ray[k]);
+    }
+    for (int k = 0; k < kPacketRays; ++k)
+        hits[k] = resolve_hit(search.ray[k], exact_ray(packet, k));
+    return true;
+}
+
+/// Likewise for any hits.
+TRG_FN bool are_hidden(const WorldIndex& index, PacketTrials& trials, const Ray* rays,
+                       uint8_t* hidden) {
+    RayPacket packet;
+    const Soup& soup = *trials.soup;
+    if (!make_packet(rays, reach_of(soup.bounds), packet)) return false;
+    uint32_t mask = 0;
+    const bool all = hide_soup(soup, packet, &mask);
+    if (!all) --trials.failures_left;
+    for (int k = 0; k < kPacketRays; ++k)
+        hidden[k] = ((mask >> k) & 1) || (!all && is_hidden<CornerBlock>(index, rays[k]));
+    return true;
+}
+
 void trace_closest(const WorldIndex& index, const Ray* rays, Hit* hits, int count) {
     const bool classic = index.triangle_test == TriangleTest::classic;
-    for (int k = 0; k < count; ++k)
-        hits[k] = classic ? closest_hit<PlaneBlock>(index, rays[k])
-                          : closest_hit<CornerBlock>(index, rays[k]);
+    PacketTrials trials{packet_soup(index)};
+    for (int k = 0; k < count;) {
+        const int end = count - k < kPacketRays ? count : k + kPacketRays;
+        if (trials.go() && end - k == kPacketRays &&
+            closest_hits(index, trials, rays + k, hits + k)) {
+            k = end;
+            continue;
+        }
+        for (; k < end; ++k)
+            hits[k] = classic ? closest_hit<PlaneBlock>(index, rays[k])
+                              : closest_hit<CornerBlock>(index, rays[k]);
+    }
 }
 
 void trace_any(const WorldIndex& index, const Ray* rays, uint8_t* hidden, int count) {
     const bool classic = index.triangle_test == TriangleTest::classic;
-    for (int k = 0; k < count; ++k)
-        hidden[k] = classic ? is_hidden<PlaneBlock>(index, rays[k])
-                            : is_hidden<CornerBlock>(index, rays[k]);
+    PacketTrials trials{packet_soup(index)};
+    for (int k = 0; k < count;) {
+        const int end = count - k < kPacketRays ? count : k + kPacketRays;
+        if (trials.go() && end - k == kPacketRays &&
+            are_hidden(index, trials, rays + k, hidden + k)) {
+            k = end;
+            continue;
+        }
+        for (; k < end; ++k)
+            hidden[k] = classic ? is_hidden<PlaneBlock>(index, rays[k])
+                                : is_hidden<CornerBlock>(index, rays[k]);
+    }
 }
 
 }  // namespace

@@ -13,14 +13,18 @@ namespace trg::TRG_ISA {
 /// culls a box that the ray touches (Ize 2013; Pharr et al., Physically Based Rendering, 6.8).
 constexpr float kFarFactor = 1.0000006f;
 
-struct TracedRay {
+/// Origin and direction as exact decisions take them.
+struct ExactRay {
+    Vec3d origin_d, direction_d;
+};
+
+struct TracedRay : ExactRay {
     float origin[3], direction[3];
     float inverse[3];         // 1 / direction
     int sign[3];              // 1 where the direction is negative: the high plane is near
     float t_min;
     int kx, ky, kz;           // kz: the axis along which the direction is longest
     float shear_x, shear_y;   // direction[kx], direction[ky] over direction[kz]
-    Vec3d origin_d, direction_d;
 };
 
 TRG_FN TracedRay prepare_ray(Vec3 origin, Vec3 direction, float t_min) {

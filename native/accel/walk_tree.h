@@ -11,6 +11,26 @@ struct ChildHits {
     Float8 entry;
 };
 
+/// What one ray or a beam of rays means to planes: per axis the origin and the inverse direction that
+/// give the nearest and the farthest distance (of planes ahead).
+struct RayBounds {
+    float near_origin[3], far_origin[3];
+    float near_inverse[3], far_inverse[3];
+    int sign[3];
+    float t_min;
+};
+
+TRG_FN RayBounds bounds_of(const TracedRay& ray) {
+    RayBounds bounds;
+    for (int axis = 0; axis < 3; ++axis) {
+        bounds.near_origin[axis] = bounds.far_origin[axis] = ray.origin[axis];
+        bounds.near_inverse[axis] = bounds.far_inverse[axis] = ray.inverse[axis];
+        bounds.sign[axis] = ray.sign[axis];
+    }
+    bounds.t_min = ray.t_min;
+    return bounds;
+}
+
 /// Distances to planes as bound * inverse + shift: one step each. The shifts are moved apart by the
 /// rounding of origin * inverse, the far side is raised by kFarFactor, so that no box is lost.
 struct QuickBoxTest {
@@ -19,22 +39,24 @@ struct QuickBoxTest {
 
     /// False for rays whose origin * inverse is too large or not a number: parallel to an axis, or
     /// from very far.
-    static bool fits(const TracedRay& ray) {
+    static bool fits(const RayBounds& ray) {
         constexpr float kLargest = 1e30f;
         bool fits = true;
         for (int axis = 0; axis < 3; ++axis)
-            fits = fits & (std::fabs(ray.inverse[axis]) < kLargest) &
-                   (std::fabs(ray.origin[axis] * ray.inverse[axis]) < kLargest);
+            fits = fits & (std::fabs(ray.far_inverse[axis]) < kLargest) &
+                   (std::fabs(ray.near_origin[axis] * ray.near_inverse[axis]) < kLargest) &
+                   (std::fabs(ray.far_origin[axis] * ray.far_inverse[axis]) < kLargest);
         return fits;
     }
-    explicit QuickBoxTest(const TracedRay& ray) {
+    explicit QuickBoxTest(const RayBounds& ray) {
         for (int axis = 0; axis < 3; ++axis) {
-            const float shift = ray.origin[axis] * ray.inverse[axis];
-            const float slack = std::fabs(shift) * (4 * 0x1p-24f);
-            inverse[axis] = splat8(ray.inverse[axis]);
-            far_inverse[axis] = splat8(ray.inverse[axis] * kFarFactor);
-            near_shift[axis] = splat8(-shift - slack);
-            far_shift[axis] = splat8((-shift + slack) * kFarFactor);
+            const float near = ray.near_origin[axis] * ray.near_inverse[axis];
+            const float far = ray.far_origin[axis] * ray.far_inverse[axis];
+            constexpr float kSlack = 4 * 0x1p-24f;
+            inverse[axis] = splat8(ray.near_inverse[axis]);
+            far_inverse[axis] = splat8(ray.far_inverse[axis] * kFarFactor);
+            near_shift[axis] = splat8(-near - std::fabs(near) * kSlack);
+            far_shift[axis] = splat8((-far + std::fabs(far) * kSlack) * kFarFactor);
         }
     }
     Float8 near_distance(Float8 bound, int axis) const {
@@ -49,11 +71,11 @@ struct QuickBoxTest {
 struct CarefulBoxTest {
     Float8 inverse[3], far_inverse[3], origin[3];
 
-    explicit CarefulBoxTest(const TracedRay& ray) {
+    explicit CarefulBoxTest(const RayBounds& ray) {
         for (int axis = 0; axis < 3; ++axis) {
-            inverse[axis] = splat8(ray.inverse[axis]);
-            far_inverse[axis] = splat8(ray.inverse[axis] * kFarFactor);
-            origin[axis] = splat8(ray.origin[axis]);
+            inverse[axis] = splat8(ray.near_inverse[axis]);
+            far_inverse[axis] = splat8(ray.far_inverse[axis] * kFarFactor);
+            origin[axis] = splat8(ray.near_origin[axis]);
         }
     }
     Float8 near_distance(Float8 bound, int axis) const {
@@ -71,7 +93,7 @@ struct NodeTest {
     Float8 t_min;
     int near[3];
 
-    explicit NodeTest(const TracedRay& ray)
+    explicit NodeTest(const RayBounds& ray)
         : box(ray), t_min(splat8(ray.t_min)), near{ray.sign[0], ray.sign[1], ray.sign[2]} {}
 
     ChildHits meet(const WideNode& node, float limit) const {
@@ -176,7 +198,8 @@ TRG_FN NodeRef push_all_but_one(const WideNode& node, const ChildHits& hits, Wal
 }
 
 template <bool kSorted, class BoxTest, class Visit>
-TRG_FN bool walk_nodes(const Tree& tree, const TracedRay& ray, const float* limit, Visit& visit) {
+TRG_FN bool walk_nodes(const Tree& tree, const RayBounds& ray, const float* limit,
+                       const Visit& visit) {
     const NodeTest<BoxTest> test(ray);
     const WideNode* nodes = tree.nodes.data();
     WalkStack stack;
@@ -207,8 +230,10 @@ TRG_FN bool walk_nodes(const Tree& tree, const TracedRay& ray, const float* limi
 template <bool kSorted, class Visit>
 TRG_FN bool walk_tree(const Tree& tree, const TracedRay& ray, const float* limit, Visit visit) {
     if (tree.root == kNoNode) return false;
-    if (QuickBoxTest::fits(ray)) return walk_nodes<kSorted, QuickBoxTest>(tree, ray, limit, visit);
-    return walk_nodes<kSorted, CarefulBoxTest>(tree, ray, limit, visit);
+    const RayBounds bounds = bounds_of(ray);
+    if (QuickBoxTest::fits(bounds))
+        return walk_nodes<kSorted, QuickBoxTest>(tree, bounds, limit, visit);
+    return walk_nodes<kSorted, CarefulBoxTest>(tree, bounds, limit, visit);
 }
 
 }  // namespace trg::TRG_ISA

@@ -50,6 +50,8 @@ struct Float8 {
 };
 
 TRG_FN Float8 load8(const float* p) { return {_mm256_load_ps(p)}; }
+/// As load8, from any address.
+TRG_FN Float8 load_row(const float* p) { return {_mm256_loadu_ps(p)}; }
 TRG_FN Float8 splat8(float x) { return {_mm256_set1_ps(x)}; }
 TRG_FN Float8 operator+(Float8 a, Float8 b) { return {_mm256_add_ps(a.v, b.v)}; }
 TRG_FN Float8 operator-(Float8 a, Float8 b) { return {_mm256_sub_ps(a.v, b.v)}; }
@@ -98,6 +100,7 @@ struct Float8 {
     return result
 
 TRG_FN Float8 load8(const float* p) { TRG_EACH_LANE(r, p[k]); }
+TRG_FN Float8 load_row(const float* p) { TRG_EACH_LANE(r, p[k]); }
 TRG_FN Float8 splat8(float x) { TRG_EACH_LANE(r, x); }
 TRG_FN Float8 operator+(const Float8& a, const Float8& b) { TRG_EACH_LANE(r, a.v[k] + b.v[k]); }
 TRG_FN Float8 operator-(const Float8& a, const Float8& b) { TRG_EACH_LANE(r, a.v[k] - b.v[k]); }
