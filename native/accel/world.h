@@ -70,8 +70,9 @@ int add_mesh(World& world, Mesh mesh);
 int add_instance(World& world, int mesh, const Transform& object_to_world);
 
 /// Builds the index over everything added so far. Triangles with coordinates that are not finite or
-/// exceed 1e18 and triangles of no area are left out and counted as degenerate.
-BuildStats build_world(World& world, int threads);
+/// exceed 1e18 and triangles of no area are left out and counted as degenerate. About `rays` rays
+/// will be traced (0: nobody knows): an index left to choice is chosen for them.
+BuildStats build_world(World& world, int threads, double rays = 0);
 
 struct UpdateStats {
     double seconds = 0;

@@ -1,6 +1,7 @@
 #include <chrono>
 #include <cmath>
 
+#include "accel/choose_accel.h"
 #include "accel/world.h"
 #include "accel/world_index.h"
 #include "base/isa.h"
@@ -9,9 +10,6 @@
 namespace trg {
 
 namespace {
-
-/// Below this many triangles trying each of them is as quick as any index.
-constexpr int64_t kTinyWorld = 16;
 
 Kernels kernels_of([[maybe_unused]] Isa isa) {
 #if defined(TRG_HAS_X86_VARIANTS)
@@ -22,29 +20,6 @@ Kernels kernels_of([[maybe_unused]] Isa isa) {
     }
 #endif
     return baseline::trace_kernels();
-}
-
-int64_t count_instanced_triangles(const World& world) {
-    int64_t count = 0;
-    for (const Instance& instance : world.instances)
-        count += static_cast<int64_t>(world.meshes[instance.mesh].triangles.size());
-    return count;
-}
-
-/// The kind of index for `world`, with the reason where it was left open.
-AccelKind choose_accel(const World& world, std::string* reason) {
-    if (world.accel != AccelKind::automatic) {
-        *reason = "asked for";
-        return world.accel;
-    }
-    const int64_t triangles = count_instanced_triangles(world);
-    if (triangles <= kTinyWorld) {
-        *reason = std::to_string(triangles) + " triangles: trying each is quickest";
-        return AccelKind::none;
-    }
-    *reason = std::to_string(triangles) + " triangles: the tree is quickest above " +
-              std::to_string(kTinyWorld);
-    return AccelKind::bvh;
 }
 
 Placement place_soup(const Soup& soup, int32_t number, const Instance& instance) {
@@ -137,21 +112,30 @@ void build_soups(const World& world, const SoupSettings& settings, WorldIndex& i
     }
 }
 
-/// Puts the placements into the order of the leaves of a tree over them.
-void build_top(WorldIndex& index, const std::vector<Bounds>& boxes, int threads) {
-    index.top = {};
-    if (index.placements.size() < 2) return;
+/// The placement of instance `number`; -1 is the merged soup.
+Placement placement_of(const World& world, const WorldIndex& index, int32_t number) {
+    if (number < 0) return {index.merged, -1, true, {}};
+    const Instance& instance = world.instances[number];
+    return place_soup(*index.soup_of_mesh[instance.mesh], number, instance);
+}
+
+/// Boxes of all that has one, by instance, and in `index.unbounded` what has none.
+std::vector<PrimRef> gather_boxes(const World& world, WorldIndex& index) {
     std::vector<PrimRef> refs;
-    refs.reserve(boxes.size());
-    for (size_t k = 0; k < boxes.size(); ++k)
-        refs.push_back(make_ref(boxes[k], static_cast<int32_t>(k)));
-    index.top = build_tree(refs, {1, threads});
-    std::vector<Placement> ordered;
-    ordered.reserve(index.placements.size());
-    for (const LeafRange& leaf : index.top.leaves)
-        ordered.push_back(index.placements[refs[leaf.begin].item]);
-    index.placements = std::move(ordered);
-    index.top.leaves = {};
+    refs.reserve(world.instances.size());
+    if (index.merged && index.merged->triangles > 0)
+        refs.push_back(make_ref(index.merged->bounds, -1));
+    for (size_t k = 0; k < world.instances.size(); ++k) {
+        const auto number = static_cast<int32_t>(k);
+        const Instance& instance = world.instances[k];
+        const Soup* soup = index.soup_of_mesh[instance.mesh];
+        if (!soup) continue;
+        if (soup->shape == Shape::plane)
+            index.unbounded.push_back(placement_of(world, index, number));
+        else if (!is_empty(soup->bounds))
+            refs.push_back(make_ref(placed_bounds(*soup, instance), number));
+    }
+    return refs;
 }
 
 void count_up(const WorldIndex& index, BuildStats* stats) {
@@ -170,32 +154,27 @@ void count_up(const WorldIndex& index, BuildStats* stats) {
 }  // namespace
 
 void place_soups(const World& world, WorldIndex& index, int threads) {
-    index.placements.clear();
-    index.unbounded.clear();
-    std::vector<Bounds> boxes;
-    index.placements.reserve(world.instances.size());
-    boxes.reserve(world.instances.size());
-    if (index.merged && index.merged->triangles > 0) {
-        index.placements.push_back({index.merged, -1, true, {}});
-        boxes.push_back(index.merged->bounds);
-    }
-    for (size_t k = 0; k < world.instances.size(); ++k) {
-        const Instance& instance = world.instances[k];
-        const Soup* soup = index.soup_of_mesh[instance.mesh];
-        if (!soup) continue;
-        const Placement placement = place_soup(*soup, static_cast<int32_t>(k), instance);
-        if (soup->shape == Shape::plane) index.unbounded.push_back(placement);
-        if (is_empty(soup->bounds)) continue;
-        index.placements.push_back(placement);
-        boxes.push_back(placed_bounds(*soup, instance));
-    }
-    build_top(index, boxes, threads);
+    index.placements = {};
+    index.unbounded = {};
+    index.top = {};
+    std::vector<PrimRef> refs = gather_boxes(world, index);
+    if (refs.size() > 1) index.top = build_tree(refs, {1, threads});
+    index.placements.reserve(refs.size());
+    if (refs.size() == 1) index.placements.push_back(placement_of(world, index, refs[0].item));
+    for (const LeafRange& leaf : index.top.leaves)
+        index.placements.push_back(placement_of(world, index, refs[leaf.begin].item));
+    index.top.leaves = {};
 }
 
-BuildStats build_world(World& world, int threads) {
+BuildStats build_world(World& world, int threads, double rays) {
     const auto start = std::chrono::steady_clock::now();
     BuildStats stats;
-    stats.accel = choose_accel(world, &stats.reason);
+    const Choice choice = world.accel == AccelKind::automatic
+                              ? choose_accel(workload_of(world, rays, threads))
+                              : Choice{world.accel, "asked for"};
+    world.index.reset();
+    stats.accel = choice.accel;
+    stats.reason = choice.reason;
     stats.instances = static_cast<int64_t>(world.instances.size());
     auto index = std::make_shared<WorldIndex>();
     index->triangle_test = world.triangle_test;

@@ -1,7 +1,7 @@
 /// Rays against the unit sphere and the plane z = 0, in double, and the coordinates on them.
 #pragma once
 
-#include "base/vec3.h"
+#include "geom/transform.h"
 
 namespace trg {
 
@@ -46,10 +46,16 @@ TRG_FN ShapeCoordinates sphere_coordinates(Vec3d p) {
     return {u < 0 ? u + 1.0 : u, 0.5 + height * (2.0 / kTwoPi)};
 }
 
-/// The point with these coordinates on the sphere.
-TRG_FN Vec3d sphere_point(double u, double v) {
-    const double height = (v - 0.5) * (0.5 * kTwoPi), across = std::cos(height);
-    return {across * std::sin(u * kTwoPi), -across * std::cos(u * kTwoPi), std::sin(height)};
+/// A point evenly spread over the sphere, from two numbers evenly spread over [0, 1).
+TRG_FN Vec3d even_sphere_point(double a, double b) {
+    const double z = 1.0 - 2.0 * a, across = std::sqrt(1.0 - z * z), angle = kTwoPi * b;
+    return {across * std::cos(angle), across * std::sin(angle), z};
+}
+
+/// How much thinner than over an unstretched sphere of the same volume such points lie, by area,
+/// where the sphere placed by `placed` has the (not unit) normal `n`, its inverse transpose's.
+TRG_FN float sphere_density(const Transform& placed, Vec3d n) {
+    return static_cast<float>(1.0 / (std::cbrt(std::fabs(determinant(placed))) * std::sqrt(dot(n, n))));
 }
 
 }  // namespace trg

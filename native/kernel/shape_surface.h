@@ -42,13 +42,6 @@ TRG_FN float shape_offset(const Instance& instance, Vec3 position, Vec3 n) {
            kEpsDouble * (size + max_component(absolute(position))) + 1e-37f;
 }
 
-/// The chance, by area of the world, of sampling the point of a sphere that has the (not unit)
-/// normal `n`, against that of an even choice.
-TRG_FN float sampling_of_sphere(const Instance& instance, Vec3d n) {
-    const double stretch = std::fabs(determinant(instance.object_to_world));
-    return static_cast<float>(1.0 / (std::cbrt(stretch) * std::sqrt(dot(n, n))));
-}
-
 template <uint32_t F>
 TRG_FN Surface make_shape_surface(const SceneView& scene, int32_t number, const ShapePoint& at) {
     const Instance& instance = scene.instances[number];
@@ -65,7 +58,7 @@ TRG_FN Surface make_shape_surface(const SceneView& scene, int32_t number, const 
     s.sampling = shape == Shape::plane ? 0.0f : 1.0f;
     if constexpr (has(F, kExtendedEmitters))
         if (shape == Shape::sphere && scene.materials[s.material].emission_weight > 0.0f)
-            s.sampling = sampling_of_sphere(instance, n);
+            s.sampling = sphere_density(instance.object_to_world, n);
     return s;
 }
 
@@ -96,9 +89,7 @@ TRG_FN Surface sample_emitter(const SceneView& scene, const EmissiveTriangle& at
         const float root = std::sqrt(a);
         return make_surface<F>(scene, at, root * (1.0f - b), root * b);
     }
-    const double z = 1.0 - 2.0 * static_cast<double>(a), across = std::sqrt(1.0 - z * z);
-    const double angle = kTwoPi * static_cast<double>(b);
-    const Vec3d p{across * std::cos(angle), across * std::sin(angle), z};
+    const Vec3d p = even_sphere_point(a, b);
     const ShapeCoordinates c = sphere_coordinates(p);
     return make_shape_surface<F>(scene, at.instance,
                                  {p, static_cast<float>(c.u), static_cast<float>(c.v)});

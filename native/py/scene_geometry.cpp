@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "accel/choose_accel.h"
 #include "py/buffer.h"
 #include "py/scene_object.h"
 
@@ -104,6 +105,8 @@ long add_request(Scene& scene, const InstanceRequest& request) {
     scene.slot_materials.insert(scene.slot_materials.end(), request.slot_materials.begin(),
                                 request.slot_materials.end());
     const long first = static_cast<long>(scene.world.instances.size());
+    if (request.transforms.size() > 1)
+        scene.world.instances.reserve(first + request.transforms.size());
     for (const Transform& transform : request.transforms) {
         add_instance(scene.world, static_cast<int>(request.mesh), transform);
         scene.first_slot.push_back(first_slot);
@@ -137,6 +140,7 @@ PyObject* add_instances_method(PyObject* self, PyObject* args, PyObject* kwargs)
         parse_arguments(args, kwargs, "lO|O", names, &request.mesh, &transforms, &slot_materials);
         Scene& scene = scene_to_change(self);
         const Buffer rows = Buffer::of<float>(transforms, "transforms", {kAnyExtent, 3, 4});
+        request.transforms.reserve(rows.extent(0));
         for (int64_t row = 0; row < rows.extent(0); ++row)
             request.transforms.push_back(
                 checked_transform(rows.data<float>() + 12 * row, "transforms", row));
@@ -146,28 +150,18 @@ PyObject* add_instances_method(PyObject* self, PyObject* args, PyObject* kwargs)
     });
 }
 
-const char* accel_name(AccelKind kind) {
-    switch (kind) {
-        case AccelKind::bvh: return "bvh";
-        case AccelKind::grid: return "grid";
-        case AccelKind::grid2: return "grid2";
-        case AccelKind::tree: return "tree";
-        case AccelKind::none: return "none";
-        default: return "auto";
-    }
-}
-
 PyObject* build_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         int threads = 0;
-        const char* const names[] = {"threads", nullptr};
-        parse_arguments(args, kwargs, "|i", names, &threads);
+        double rays = 0;
+        const char* const names[] = {"threads", "rays", nullptr};
+        parse_arguments(args, kwargs, "|id", names, &threads, &rays);
         Scene& scene = scene_to_change(self);
         BuildStats stats;
         {
             const SceneChange change(self);
             const WithoutGil unlocked;
-            stats = build_world(scene.world, threads);
+            stats = build_world(scene.world, threads, rays);
         }
         return checked(Py_BuildValue(
             "{s:d, s:L, s:L, s:L, s:L, s:L, s:s, s:s}", "seconds", stats.seconds, "bytes",
@@ -205,7 +199,8 @@ PyMethodDef kSceneGeometryMethods[] = {
     {"add_instances", as_method(add_instances_method), METH_VARARGS | METH_KEYWORDS,
      "add_instances(mesh, transforms, slot_materials=None) -> index of the first"},
     {"build", as_method(build_method), METH_VARARGS | METH_KEYWORDS,
-     "build(threads=0) -> dict of statistics"},
+     "build(threads=0, rays=0) -> dict of statistics\n\n"
+     "rays: about how many will be traced (0: unknown); accel='auto' chooses for them"},
     {nullptr, nullptr, 0, nullptr}};
 
 }  // namespace trg::py

@@ -63,7 +63,9 @@ def test_moved_vertices_are_those_of_a_new_mesh(accel: str, merged: bool, test: 
 
     mesh = soup(2000, 0.1, seed=3)
     scene = new_scene(mesh)
-    bent = Mesh((mesh.vertices + 0.05 * np.sin(5 * mesh.vertices[:, ::-1])).astype(np.float32), mesh.triangles)
+    bent = Mesh(
+        (mesh.vertices + 0.05 * np.sin(5 * mesh.vertices[:, ::-1])).astype(np.float32), mesh.triangles
+    )
     stats = scene.update_vertices(0, bent.vertices)
     assert stats.rebuilt == (accel != "bvh")
     check_same(scene, new_scene(bent))

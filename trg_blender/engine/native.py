@@ -150,9 +150,12 @@ class RayScene:
         rows = _contiguous("vertices", vertices, np.float32)
         return UpdateStats(**self._scene.update_vertices(mesh, rows, None, threads))
 
-    def build(self, threads: int = 0) -> BuildStats:
-        """Builds the index over everything added; `threads` 0 takes all cores."""
-        return BuildStats(**self._scene.build(threads))
+    def build(self, threads: int = 0, rays: float = 0) -> BuildStats:
+        """Builds the index over everything added; `threads` 0 takes all cores.
+
+        `auto` chooses the accelerator for about `rays` rays; 0 is an unknown number, a million.
+        """
+        return BuildStats(**self._scene.build(threads, rays))
 
     def intersect(
         self,

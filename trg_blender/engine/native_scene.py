@@ -41,7 +41,14 @@ def build_native_scene(
     matrix = np.ascontiguousarray(camera.matrix, dtype=np.float64)
     window = np.array(camera.window, dtype=np.float64)
     result.set_camera(camera.kind, matrix, window, camera.clip_start, camera.clip_end)
-    return result, dict(result.build(settings.threads))
+    return result, dict(result.build(settings.threads, expected_rays(scene, settings)))
+
+
+def expected_rays(scene: SceneArrays, settings: RenderSettings) -> float:
+    """About how many rays a render traces: at every surface of a path one to go on and one to a light."""
+    surfaces = min(settings.max_bounces + 1, 4)
+    per_sample = 1 + surfaces * (2 if scene.lights else 1)
+    return float(settings.width) * settings.height * settings.samples * per_sample
 
 
 def add_mesh(result: Any, mesh: MeshArrays) -> None:
