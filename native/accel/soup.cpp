@@ -69,7 +69,10 @@ BlockItems runs_of_leaves(const std::vector<LeafRange>& leaves, const std::vecto
         for (int32_t k = 0; k < leaf.count; ++k)
             runs.items.push_back(refs[leaf.begin + k].item);
         // Ascending items make the first of equal hits the one that counts.
-        std::sort(runs.items.end() - leaf.count, runs.items.end());
+        const auto first = runs.items.end() - leaf.count;
+        std::sort(first, runs.items.end());
+        // Parts of one triangle may have met again.
+        runs.items.erase(std::unique(first, runs.items.end()), runs.items.end());
         runs.begin.push_back(static_cast<int64_t>(runs.items.size()));
     }
     return runs;
@@ -83,7 +86,8 @@ BlockItems runs_of_all(const std::vector<PrimRef>& refs) {
     return runs;
 }
 
-BlockItems index_refs(Soup& soup, std::vector<PrimRef>& refs, int threads) {
+BlockItems index_refs(Soup& soup, std::vector<PrimRef>& refs, const SoupSource& source,
+                      int threads) {
     BlockItems runs;
     switch (soup.accel) {
         case AccelKind::grid:
@@ -94,11 +98,13 @@ BlockItems index_refs(Soup& soup, std::vector<PrimRef>& refs, int threads) {
             runs = runs_of_leaves(soup.pairs.leaves, refs);
             soup.pairs.leaves = {};
             return runs;
-        case AccelKind::bvh:
-            soup.tree = build_tree(refs, {kWidth, threads});
+        case AccelKind::bvh: {
+            const CornersOf corners = [&](int64_t item) { return corners_of(source, item); };
+            soup.tree = build_tree(refs, {kWidth, threads, &corners});
             runs = runs_of_leaves(soup.tree.leaves, refs);
             soup.tree.leaves = {};
             return runs;
+        }
         default:
             return runs_of_all(refs);
     }
@@ -110,7 +116,7 @@ void index_soup(Soup& soup, const SoupSource& source, const SoupSettings& settin
     soup.degenerate = source.count - soup.triangles;
     for (const PrimRef& ref : refs) soup.bounds = united(soup.bounds, box_of(ref));
     soup.accel = refs.empty() ? AccelKind::none : settings.accel;
-    const BlockItems runs = index_refs(soup, refs, settings.threads);
+    const BlockItems runs = index_refs(soup, refs, source, settings.threads);
     refs = {};
     pack_soup(soup, source, runs, settings);
     soup.built_cost = tree_cost(soup.tree);

@@ -1,10 +1,12 @@
 #include "accel/split.h"
 
+#include <algorithm>
 #include <cmath>
 #include <mutex>
 #include <utility>
 
-#include "base/float4.h"
+#include "accel/box4.h"
+#include "accel/cut_split.h"
 #include "base/parallel.h"
 
 namespace trg {
@@ -14,31 +16,10 @@ namespace {
 constexpr int kMostBins = 32;
 constexpr int64_t kParallelSize = 1 << 17;
 constexpr int64_t kParallelGrain = 1 << 15;
-
-/// A box as two rows; the fourth column means nothing.
-struct Box4 {
-    Float4 lo, hi;
-};
-
-Box4 empty_box() { return {splat4(HUGE_VALF), splat4(-HUGE_VALF)}; }
-
-Box4 united(const Box4& a, const Box4& b) { return {min4(a.lo, b.lo), max4(a.hi, b.hi)}; }
-
-Box4 rows_of(const PrimRef& ref) { return {load4(&ref.lo.x), load4(&ref.hi.x)}; }
-
-Bounds bounds_of(const Box4& box) {
-    float lo[4], hi[4];
-    store4(lo, box.lo);
-    store4(hi, box.hi);
-    return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
-}
-
-/// Half the surface; finite for the coordinates that sound triangles have.
-float half_area_of(const Box4& box) {
-    float d[4];
-    store4(d, box.hi - box.lo);
-    return d[0] * d[1] + d[1] * d[2] + d[2] * d[0];
-}
+/// Objects that overlap less than this share of the whole are not cut (Stich et al. 2009).
+constexpr double kLeastOverlap = 1e-4;
+/// Nor are ranges where cuts would pay for a smaller share of the items.
+constexpr float kNeedShare = 0.25f;
 
 struct Bin {
     Box4 box;
@@ -128,14 +109,6 @@ Bins bins_of(const PrimRef* refs, const PrimRange& range, const Binning& binning
     return bins;
 }
 
-double blocks_of(int64_t items, int width) {
-    return static_cast<double>((items + width - 1) / width);
-}
-
-double cost_of(const Box4& box, int64_t items, int block_width) {
-    return half_area_of(box) * blocks_of(items, block_width);
-}
-
 /// The cheapest plane between two bins of one axis that leaves neither side empty.
 Plane best_plane_along(const Bin* bins, int axis, int bin_count, int block_width) {
     double cost_right[kMostBins];
@@ -159,25 +132,21 @@ Plane best_plane_along(const Bin* bins, int axis, int bin_count, int block_width
     return best;
 }
 
-/// Boxes of a range while it grows.
-struct Extent {
-    Box4 box = empty_box();
-    Box4 centres = empty_box();
-};
-
-void grow(Extent* extent, const Box4& box) {
-    const Float4 centre = box.lo + box.hi;
-    extent->box = united(extent->box, box);
-    extent->centres = united(extent->centres, Box4{centre, centre});
-}
-
-PrimRange range_of(int64_t begin, int64_t end, const Extent& extent) {
-    return {begin, end, bounds_of(extent.box), bounds_of(extent.centres)};
+/// Half the surface that the boxes on both sides of a plane share.
+double overlap_of(const Bins& bins, const Binning& binning, const Plane& plane) {
+    Box4 left = empty_box(), right = left;
+    for (int k = 0; k < plane.bin; ++k) left = united(left, bins.bin[plane.axis][k].box);
+    for (int k = plane.bin; k < binning.count; ++k)
+        right = united(right, bins.bin[plane.axis][k].box);
+    const Bounds shared = bounds_of({max4(left.lo, right.lo), min4(left.hi, right.hi)});
+    const bool apart = shared.lo.x > shared.hi.x || shared.lo.y > shared.hi.y ||
+                       shared.lo.z > shared.hi.z;
+    return apart ? 0 : half_area(shared);
 }
 
 void partition(PrimRef* refs, const PrimRange& range, const Binning& binning, const Plane& plane,
                PrimRange halves[2]) {
-    Extent left, right;
+    Extent left = empty_extent(), right = left;
     int64_t left_end = range.begin, right_begin = range.end;
     while (left_end < right_begin) {
         const Box4 box = rows_of(refs[left_end]);
@@ -198,15 +167,36 @@ void partition(PrimRef* refs, const PrimRange& range, const Binning& binning, co
 }  // namespace
 
 PrimRange measure_range(const PrimRef* refs, int64_t begin, int64_t end) {
-    Extent extent;
+    Extent extent = empty_extent();
     for (int64_t k = begin; k < end; ++k) grow(&extent, rows_of(refs[k]));
     return range_of(begin, end, extent);
 }
 
-void split_by_count(const PrimRef* refs, const PrimRange& range, PrimRange halves[2]) {
+float least_need(const PrimRange& range) {
+    return std::max(1.0f, kNeedShare * static_cast<float>(range.end - range.begin));
+}
+
+void share_room(PrimRef* refs, const PrimRange& range, PrimRange halves[2]) {
+    if (range.room == 0) return;
+    const double need = static_cast<double>(halves[0].need) + halves[1].need;
+    const double share = need > 0 ? halves[0].need / need : 0.5;
+    const int64_t room = range.begin + (range.end - range.begin) + range.room - halves[1].end;
+    const auto left = static_cast<int64_t>(share * static_cast<double>(room));
+    // The order within a half does not matter: its first ones move behind its last.
+    const int64_t moved = std::min(left, halves[1].end - halves[1].begin);
+    std::copy(refs + halves[1].begin, refs + halves[1].begin + moved,
+              refs + halves[1].end + left - moved);
+    halves[0].room = left;
+    halves[1].begin += left;
+    halves[1].end += left;
+    halves[1].room = room - left;
+}
+
+void split_by_count(PrimRef* refs, const PrimRange& range, PrimRange halves[2]) {
     const int64_t middle = range.begin + (range.end - range.begin) / 2;
     halves[0] = measure_range(refs, range.begin, middle);
     halves[1] = measure_range(refs, middle, range.end);
+    share_room(refs, range, halves);
 }
 
 void split_range(PrimRef* refs, const PrimRange& range, const SplitSettings& settings,
@@ -220,8 +210,13 @@ void split_range(PrimRef* refs, const PrimRange& range, const SplitSettings& set
             best_plane_along(bins.bin[axis], axis, binning.count, settings.block_width);
         if (plane.cost < best.cost) best = plane;
     }
+    if (settings.corners && range.room > 0 && range.need >= least_need(range) &&
+        (best.axis < 0 || overlap_of(bins, binning, best) > kLeastOverlap * settings.root_area) &&
+        cut_range(refs, range, settings, best.cost, halves))
+        return share_room(refs, range, halves);
     if (best.axis < 0) return split_by_count(refs, range, halves);
     partition(refs, range, binning, best, halves);
+    share_room(refs, range, halves);
 }
 
 }  // namespace trg

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "accel/cut_split.h"
 #include "base/parallel.h"
 
 namespace trg {
@@ -126,6 +127,12 @@ NodeRef append_tree(Tree& tree, const Tree& part) {
     return moved_ref(part.root, node_shift, leaf_shift);
 }
 
+/// What the ranges of a tree over `all` are divided by: cuts need room.
+SplitSettings settings_for(const SplitSettings& settings, const PrimRange& all, int threads) {
+    return {settings.block_width, threads, all.room > 0 ? settings.corners : nullptr,
+            half_area(all.box)};
+}
+
 }  // namespace
 
 Tree build_tree(std::vector<PrimRef>& refs, const SplitSettings& settings) {
@@ -134,16 +141,19 @@ Tree build_tree(std::vector<PrimRef>& refs, const SplitSettings& settings) {
     if (count == 0) return {};
 
     // The upper part, whose large ranges are binned by all threads together.
-    const PrimRange all = measure_range(refs.data(), 0, count);
+    PrimRange all = measure_range(refs.data(), 0, count);
+    all.room = settings.corners ? measure_needs(refs, all.box, settings) : 0;
+    const SplitSettings upper_settings = settings_for(settings, all, settings.threads);
+    refs.resize(count + all.room);
     const int64_t task_size = std::max(kSmallestTask, count / kTasksPerTree);
-    Builder upper{refs, settings, count > kSmallestTask ? task_size : 0, {}, {}};
+    Builder upper{refs, upper_settings, count > kSmallestTask ? task_size : 0, {}, {}};
     upper.tree.root = build_range(upper, all, 0);
     upper.tree.bounds = all.box;
 
     // The subtrees, a thread each, joined in the order of the tree.
     std::vector<Tree> parts(upper.tasks.size());
     parallel_for(static_cast<int64_t>(parts.size()), 1, settings.threads, [&](int64_t k, int64_t) {
-        Builder lower{refs, {settings.block_width, 1}, 0, {}, {}};
+        Builder lower{refs, settings_for(settings, all, 1), 0, {}, {}};
         lower.tree.root = build_range(lower, upper.tasks[k].range, upper.tasks[k].level);
         parts[k] = std::move(lower.tree);
     });
