@@ -294,10 +294,13 @@ HINTS: dict[str, tuple[str, str]] = {
         "после 'operator' одна из + - * / % == != < > <= >= !",
     ),
     "raise_limit": (
-        "call Scene.Render() in the loop, or raise the limit (--limit {option}=N)",
-        "вызовите Scene.Render() в цикле или увеличьте предел (--limit {option}=N)",
+        "call Scene.Render() in the loop, or raise the limit (--limit {option}=N, or the preferences)",
+        "вызовите Scene.Render() в цикле или увеличьте предел (--limit {option}=N или настройки)",
     ),
-    "raise_other": ("raise the limit with --limit {option}=N", "увеличьте предел: --limit {option}=N"),
+    "raise_other": (
+        "raise the limit with --limit {option}=N, or in the preferences",
+        "увеличьте предел: --limit {option}=N или в настройках",
+    ),
     "reserved": ("reserved for later versions", "оставлено для следующих версий"),
     "reserved_word": ("this keyword cannot stand here", "это служебное слово здесь не может стоять"),
     "split_expression": ("split it into several statements", "разбейте на несколько операторов"),

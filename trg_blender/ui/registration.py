@@ -7,9 +7,9 @@ import atexit
 import bpy
 
 from ..engine import render_engine, run_text
-from . import command, operators, panels, properties
+from . import command, operators, panels, preferences, properties
 
-PARTS = (properties, render_engine, run_text, operators, panels, command)
+PARTS = (preferences, properties, render_engine, run_text, operators, panels, command)
 
 
 def register() -> None:

@@ -15,6 +15,7 @@ from .mirror import MirrorCounts, SceneMirror, new_planner
 from .parameters import offer_parameters, parameter_values
 from .plan import Planner
 from .text_files import TextFiles
+from .user_settings import program_limits
 
 RUN_AHEAD_SECONDS = 120.0
 """How long a jump to a later frame may take before the program counts as out of budget."""
@@ -197,5 +198,8 @@ def host_options(scene: bpy.types.Scene) -> lang.HostOptions:
     """std::frames() counts the timeline, std::fps() is the scene's."""
     frames = max(scene.frame_end - scene.frame_start + 1, 1)
     return lang.HostOptions(
-        frames=frames, fps=scene.render.fps / scene.render.fps_base, language=message_language()
+        limits=program_limits(),
+        frames=frames,
+        fps=scene.render.fps / scene.render.fps_base,
+        language=message_language(),
     )

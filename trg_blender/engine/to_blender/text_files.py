@@ -1,6 +1,7 @@
 """Files for the program in a text of a .blend: its other texts, then the folders it may read.
 
-The folders are the one the text was loaded from, the one the .blend lies in, and TRG's own library.
+The folders are the one the text was loaded from, the one the .blend lies in, those that the user allowed
+in the preferences, and TRG's own library.
 """
 
 from __future__ import annotations
@@ -11,6 +12,7 @@ import bpy
 
 from ...lang.files import DiskFiles, FileError, NoFiles, clean_name
 from ...lang.source import SourceFile
+from .user_settings import user_folders
 
 
 class TextFiles:
@@ -59,10 +61,11 @@ class TextFiles:
 
 
 def allowed_folders(text: bpy.types.Text) -> list[Path]:
-    """Folder of the text's file, then of the .blend, as far as there are any."""
+    """Folder of the text's file, then of the .blend, then the user's, as far as there are any."""
     folders: list[Path] = []
     if text.filepath:
         folders.append(Path(bpy.path.abspath(text.filepath, library=text.library)).parent)
     if bpy.data.filepath:
         folders.append(Path(bpy.data.filepath).parent)
+    folders += user_folders()
     return [folder for folder in dict.fromkeys(folders) if folder.is_dir()]
