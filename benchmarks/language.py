@@ -11,7 +11,8 @@ program at module level, as a script does. Peers that are not installed are name
 packages povray, openscad, lua5.4); a peer that cannot express a program has no figure.
 
 Programs: `loop` 10^7 turns of a nested loop of two statements; `fib` recursive fib(27); `objects` a linked
-list of 10^5 objects with two fields; `append` 30 000 appends to a string; `shapes` 10^5 spheres made and
+list of 10^5 objects with two fields; `append` 30 000 appends to a string; `list` the same to a
+list (POV-Ray: an array of known length); `shapes` 10^5 spheres made and
 added to the scene (TRG alone has a scene; its figure is without Render()).
 """
 
@@ -37,6 +38,7 @@ TRG = {
     "fib": "fib = function(n) { if (n < 2) return n; return #fib(n - 1) + #fib(n - 2); }; fib(27);",
     "objects": "h = 0; for (i = 0; i < 100000; i++) { o = object(); o.n = h; o.v = i; h = o; }",
     "append": 's = ""; for (i = 0; i < 30000; i++) s = s + "x";',
+    "list": "l = []; for (i = 0; i < 30000; i++) l.append(i);",
     "shapes": "S = scene(); m = material::gold();"
     "for (i = 0; i < 100000; i++) S.Add(sphere(vec3(i, 0, 0), 1, m));",
 }
@@ -48,6 +50,7 @@ PYTHON = {
     "objects": "class O:\n    pass\nh = 0\ni = 0.0\nwhile i < 100000:\n    o = O()\n    o.n = h\n"
     "    o.v = i\n    h = o\n    i += 1\n",
     "append": "s = ''\ni = 0.0\nwhile i < 30000:\n    s = s + 'x'\n    i += 1\n",
+    "list": "l = []\ni = 0.0\nwhile i < 30000:\n    l.append(i)\n    i += 1\n",
 }
 _HOOK = "debug.sethook(function() end, '', 1000)\n"
 LUA = {
@@ -57,6 +60,7 @@ LUA = {
     "fib": _HOOK + "function fib(n) if n < 2 then return n end return fib(n - 1) + fib(n - 2) end fib(27.0)",
     "objects": _HOOK + "h = 0; i = 0.0; while i < 100000 do o = {}; o.n = h; o.v = i; h = o; i = i + 1 end",
     "append": _HOOK + "s = ''; i = 0.0; while i < 30000 do s = s .. 'x'; i = i + 1 end",
+    "list": _HOOK + "l = {}; i = 0.0; while i < 30000 do l[#l + 1] = i; i = i + 1 end",
 }
 _SCENE = "sphere { 0, 1 }\n"
 POVRAY = {
@@ -65,6 +69,8 @@ POVRAY = {
     "#declare s = s + j; #declare j = j + 1; #end #declare i = i + 1; #end\n" + _SCENE,
     "fib": "#macro fib(n) #if (n < 2) #local r = n; #else #local r = fib(n - 1) + fib(n - 2); #end r #end\n"
     "#declare x0 = fib(27);\n" + _SCENE,
+    "list": "#declare l = array[30000]; #declare i = 0; #while (i < 30000) #declare l[i] = i; "
+    "#declare i = i + 1; #end\n" + _SCENE,
     "append": '#declare s = ""; #declare i = 0; #while (i < 30000) #declare s = concat(s, "x"); '
     "#declare i = i + 1; #end\n" + _SCENE,
 }
