@@ -1,6 +1,6 @@
 """Robustness of every accelerator: the catalogue's ray rows with full counts, failures of each.
 
-Usage: python -m benchmarks.robustness [--rays N] [--accels a,b] [--rows TEXT]. Exit status 1 when a ray failed.
+Usage: python -m benchmarks.robustness [--rays N] [--accels a,b] [--rows TEXT]. Status 1 when a ray failed.
 """
 
 from __future__ import annotations
@@ -16,9 +16,7 @@ from .robustness_rows import rows
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument(
-        "--rays", type=int, default=10_000_000, help="rays a cell; lone triangles: 20000 at most"
-    )
+    parser.add_argument("--rays", type=int, default=10_000_000, help="rays a row; lone triangles: 20000")
     parser.add_argument("--accels", default=",".join(INDICES))
     parser.add_argument("--rows", default="", help="only rows whose name holds this text")
     arguments = parser.parse_args()

@@ -90,7 +90,7 @@ double cost_when_divided(uint32_t items) {
     return std::min(whole, kEnterCost + kInnerCost * std::cbrt(static_cast<double>(items)));
 }
 
-/// The grid of least `cost(grid)` among those with 2^k times `first` cells.
+/// The grid of least `cost(grid)` among those with 2^k times `first` cells, one cell if none will do.
 template <class Cost>
 Grid search_grid(const Bounds& bounds, double first, double most, Cost cost) {
     Grid best = lay_grid(bounds, first);
@@ -100,6 +100,8 @@ Grid search_grid(const Bounds& bounds, double first, double most, Cost cost) {
         for (double cells = first * factor; cells <= most && cells >= 1; cells *= factor) {
             const Grid grid = lay_grid(bounds, cells);
             const double now = cost(grid);
+            const bool hopeless = now == HUGE_VAL && factor < 1;
+            if (hopeless) continue;
             if (!(now < least)) break;
             best = grid;
             least = now;
@@ -107,6 +109,7 @@ Grid search_grid(const Bounds& bounds, double first, double most, Cost cost) {
         }
         if (improved) break;
     }
+    if (least == HUGE_VAL) return lay_grid(bounds, 1);
     return best;
 }
 

@@ -1,4 +1,4 @@
-/// Regular grids over boxes, one or two levels deep; each cell lists the items that touch it.
+/// Regular grids over boxes, some of them within cells of others; each cell lists the items that touch it.
 #pragma once
 
 #include <vector>
@@ -22,19 +22,21 @@ TRG_FN int64_t cell_count(const Grid& grid) {
     return int64_t{grid.size[0]} * grid.size[1] * grid.size[2];
 }
 
-/// Blocks of one cell. Cells with the same items have the same blocks.
+/// Blocks of one cell; cells with the same items have the same ones. With `end` kDivided, the cell has
+/// a finer grid instead, number `begin`.
 struct BlockRange {
     uint32_t begin, end;
 };
+constexpr uint32_t kDivided = 0xffffffffu;
 
-/// A grid, and in some of its cells a finer one; `cells` are those of all of them in a row. A cell
-/// with a finer grid has no blocks itself.
+/// Grid 0 and the finer ones within its cells and theirs; `cells` are those of all in a row.
 struct GridIndex {
-    Grid outer;
-    std::vector<Grid> inner;
-    std::vector<int32_t> inner_of_cell;   // by cell of `outer`, -1: none; empty when no cell has one
+    std::vector<Grid> grids;
     std::vector<BlockRange> cells;
 };
+
+/// Grids within each other, at most.
+constexpr int kMostGridLevels = 4;
 
 /// The items of every cell in a row: cell c has items[begin[c]] to items[begin[c + 1]].
 struct CellLists {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <unordered_map>
+#include <utility>
 
 #include "accel/wide_node.h"
 #include "base/parallel.h"
@@ -12,42 +13,84 @@ namespace {
 
 /// Cells with fewer items are never divided.
 constexpr int64_t kFewItems = 2 * kWidth;
+/// Where the boxes of a cell's items are this large a part of it in the mean, it is left whole.
+constexpr double kMostOverlap = 0.5;
+/// A finer grid may list an item this often in the mean: what overlaps cannot be divided.
+constexpr int64_t kMostCopies = 6;
 /// A finer grid must be expected to cost less than this share of the cell's blocks.
 constexpr double kWorthwhile = 0.8;
 
-/// A finer grid with the items of its cells, as indices of references; no cells: not worthwhile.
+/// A grid with the items of its cells, as indices of references, and the finer grids of some of them.
+/// A grid of no cells was not worthwhile.
 struct Division {
     Grid grid;
     CellLists lists;
+    int64_t items = 0;             // in all of it
+    std::vector<Division> inner;   // by cell; empty when no cell has one
 };
 
+bool is_divided(const Division& division) { return !division.lists.begin.empty(); }
+
+/// Where both boxes are; they meet.
+Bounds common(const Bounds& a, const Bounds& b) {
+    return {{max_of(a.lo.x, b.lo.x), max_of(a.lo.y, b.lo.y), max_of(a.lo.z, b.lo.z)},
+            {min_of(a.hi.x, b.hi.x), min_of(a.hi.y, b.hi.y), min_of(a.hi.z, b.hi.z)}};
+}
+
+/// Whether most lines through `box` meet the boxes of most references, so that nothing can be
+/// gained by dividing it.
+bool is_overlapping(const Bounds& box, const std::vector<PrimRef>& refs) {
+    double sum = 0;
+    for (const PrimRef& ref : refs) sum += half_area(common(box, box_of(ref)));
+    return sum > kMostOverlap * half_area(box) * static_cast<double>(refs.size());
+}
+
+void divide_cells(Division* division, const std::vector<PrimRef>& refs, int level, int threads);
+
 Division divide_cell(const Bounds& box, const std::vector<PrimRef>& refs, const int32_t* items,
-                     int64_t count) {
+                     int64_t count, int level) {
     std::vector<PrimRef> inside;
     inside.reserve(count);
-    for (int64_t k = 0; k < count; ++k) inside.push_back(refs[items[k]]);
+    Bounds held = empty_bounds();
+    for (int64_t k = 0; k < count; ++k) {
+        inside.push_back(refs[items[k]]);
+        held = united(held, box_of(inside.back()));
+    }
     Division division;
-    const Grid grid = best_grid(box, inside);
+    const Bounds tight = common(box, held);
+    if (is_overlapping(tight, inside)) return division;
+    const Grid grid = best_grid(tight, inside);
     const double blocks = static_cast<double>((count + kWidth - 1) / kWidth);
     if (kEnterCost + expected_cost(grid, inside) > kWorthwhile * blocks) return division;
+    CellLists lists = list_cells(grid, inside);
+    if (static_cast<int64_t>(lists.items.size()) > kMostCopies * count) return division;
     division.grid = grid;
-    division.lists = list_cells(grid, inside);
+    division.lists = std::move(lists);
+    division.items = count;
     for (int32_t& item : division.lists.items) item = items[item];
+    divide_cells(&division, refs, level + 1, 1);
     return division;
 }
 
-std::vector<Division> divide_cells(const Grid& outer, const CellLists& lists,
-                                   const std::vector<PrimRef>& refs, int threads) {
-    std::vector<Division> divisions(cell_count(outer));
-    parallel_for(cell_count(outer), 64, threads, [&](int64_t begin, int64_t end) {
+/// Divides the full cells of `division`, itself at `level`.
+void divide_cells(Division* division, const std::vector<PrimRef>& refs, int level, int threads) {
+    const CellLists& lists = division->lists;
+    const int64_t cells = cell_count(division->grid);
+    int64_t fullest = 0;
+    for (int64_t cell = 0; cell < cells; ++cell)
+        fullest = std::max(fullest, lists.begin[cell + 1] - lists.begin[cell]);
+    if (level >= kMostGridLevels || fullest < kFewItems) return;
+    const int64_t most = division->items / 2;
+    division->inner.resize(cells);
+    parallel_for(cells, 64, threads, [&](int64_t begin, int64_t end) {
         for (int64_t cell = begin; cell < end; ++cell) {
             const int64_t first = lists.begin[cell], count = lists.begin[cell + 1] - first;
-            if (count < kFewItems) continue;
-            divisions[cell] =
-                divide_cell(cell_bounds(outer, cell), refs, lists.items.data() + first, count);
+            // A cell that holds most of what was divided would be divided for ever.
+            if (count < kFewItems || (level > 1 && count > most)) continue;
+            division->inner[cell] = divide_cell(cell_bounds(division->grid, cell), refs,
+                                                lists.items.data() + first, count, level);
         }
     });
-    return divisions;
 }
 
 /// Blocks that exist already, by their items: long triangles give many cells the same list.
@@ -80,42 +123,25 @@ class KnownLists {
     std::unordered_map<uint64_t, BlockRange> known_;
 };
 
-/// Appends the cells of `lists`, whose items are indices of references.
-void append_cells(const CellLists& lists, KnownLists* known, GridIndex* index, BlockItems* runs) {
+/// Appends the grid with all that is in its cells; returns its number.
+uint32_t append_division(const Division& division, KnownLists* known, GridIndex* index,
+                         BlockItems* runs) {
+    const auto number = static_cast<uint32_t>(index->grids.size());
+    const size_t first_cell = index->cells.size();
+    index->grids.push_back(division.grid);
+    index->grids.back().first_cell = static_cast<int64_t>(first_cell);
+    const CellLists& lists = division.lists;
+    index->cells.resize(first_cell + lists.begin.size() - 1);
     for (size_t cell = 0; cell + 1 < lists.begin.size(); ++cell) {
+        const bool divided = !division.inner.empty() && is_divided(division.inner[cell]);
         const int64_t first = lists.begin[cell], count = lists.begin[cell + 1] - first;
-        index->cells.push_back(known->find_or_add(lists.items.data() + first, count, runs));
+        // Sought before it is stored: appending moves the cells.
+        const BlockRange range =
+            divided ? BlockRange{append_division(division.inner[cell], known, index, runs), kDivided}
+                    : known->find_or_add(lists.items.data() + first, count, runs);
+        index->cells[first_cell + cell] = range;
     }
-}
-
-/// `lists` without the items of the cells that were divided.
-CellLists without_divided(const CellLists& lists, const std::vector<Division>& divisions) {
-    CellLists left;
-    left.begin.assign(1, 0);
-    for (size_t cell = 0; cell < divisions.size(); ++cell) {
-        if (divisions[cell].lists.begin.empty())
-            left.items.insert(left.items.end(), lists.items.begin() + lists.begin[cell],
-                              lists.items.begin() + lists.begin[cell + 1]);
-        left.begin.push_back(static_cast<int64_t>(left.items.size()));
-    }
-    return left;
-}
-
-void add_divided(const CellLists& lists, const std::vector<PrimRef>& refs, int threads,
-                 GridIndex* index, BlockItems* runs) {
-    std::vector<Division> divisions = divide_cells(index->outer, lists, refs, threads);
-    KnownLists known;
-    append_cells(without_divided(lists, divisions), &known, index, runs);
-    index->inner_of_cell.assign(divisions.size(), -1);
-    for (size_t cell = 0; cell < divisions.size(); ++cell) {
-        Division& division = divisions[cell];
-        if (division.lists.begin.empty()) continue;
-        index->inner_of_cell[cell] = static_cast<int32_t>(index->inner.size());
-        division.grid.first_cell = static_cast<int64_t>(index->cells.size());
-        index->inner.push_back(division.grid);
-        append_cells(division.lists, &known, index, runs);
-        division = {};
-    }
+    return number;
 }
 
 }  // namespace
@@ -127,13 +153,14 @@ void cut_into_runs(BlockItems& runs, int64_t first, int64_t last) {
 
 BlockItems build_grid(const std::vector<PrimRef>& refs, const Bounds& bounds, bool divide, int threads,
                       GridIndex* index) {
-    index->outer = divide ? best_outer_grid(bounds, refs) : best_grid(bounds, refs);
+    Division whole;
+    whole.grid = divide ? best_outer_grid(bounds, refs) : best_grid(bounds, refs);
+    whole.lists = list_cells(whole.grid, refs);
+    if (divide) divide_cells(&whole, refs, 1, threads);
     BlockItems runs;
     runs.begin.assign(1, 0);
-    const CellLists lists = list_cells(index->outer, refs);
     KnownLists known;
-    if (divide) add_divided(lists, refs, threads, index, &runs);
-    else append_cells(lists, &known, index, &runs);
+    append_division(whole, &known, index, &runs);
     for (int32_t& item : runs.items) item = refs[item].item;
     return runs;
 }

@@ -160,8 +160,7 @@ int64_t soup_bytes(const Soup& soup) {
         soup.tree.nodes.size() * sizeof(WideNode) + soup.pairs.nodes.size() * sizeof(PairNode) +
         soup.corner_blocks.size() * sizeof(CornerBlock) +
         soup.plane_blocks.size() * sizeof(PlaneBlock) + soup.origins.size() * sizeof(PrimOrigin) +
-        grid.cells.size() * sizeof(BlockRange) + grid.inner.size() * sizeof(Grid) +
-        grid.inner_of_cell.size() * sizeof(int32_t));
+        grid.cells.size() * sizeof(BlockRange) + grid.grids.size() * sizeof(Grid));
 }
 
 }  // namespace trg

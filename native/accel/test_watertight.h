@@ -61,35 +61,40 @@ struct EdgeFunctions {
     double u, v, w;
 };
 
-/// The corners of one triangle relative to the origin of a ray.
+/// The corners of one triangle relative to the origin of a ray, and its edges.
 struct RelativeCorners {
     Vec3d a, b, c;
+    Vec3d bc, ca, ab;
 };
 
 TRG_FN RelativeCorners relative_corners(const CornerBlock& block, int lane, const ExactRay& ray) {
-    return {corner_of(block, 0, lane) - ray.origin_d, corner_of(block, 1, lane) - ray.origin_d,
-            corner_of(block, 2, lane) - ray.origin_d};
+    const Vec3d a = corner_of(block, 0, lane), b = corner_of(block, 1, lane);
+    const Vec3d c = corner_of(block, 2, lane);
+    return {a - ray.origin_d, b - ray.origin_d, c - ray.origin_d, c - b, a - c, b - a};
 }
 
 TRG_FN EdgeFunctions edge_functions(const RelativeCorners& p, Vec3d direction) {
-    return {dot(direction, cross(p.b, p.c)), dot(direction, cross(p.c, p.a)),
-            dot(direction, cross(p.a, p.b))};
+    // B x C = B x (C - B): edges do not cancel, however far the triangle is.
+    return {dot(direction, cross(p.b, p.bc)), dot(direction, cross(p.c, p.ca)),
+            dot(direction, cross(p.a, p.ab))};
 }
 
+TRG_FN double larger_of(double a, double b) { return a > b ? a : b; }
+
 TRG_FN double largest_component(Vec3d v) {
-    const double x = std::fabs(v.x), y = std::fabs(v.y), z = std::fabs(v.z);
-    const double xy = x > y ? x : y;
-    return xy > z ? xy : z;
+    return larger_of(larger_of(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.z));
+}
+
+TRG_FN double largest_of(Vec3d a, Vec3d b, Vec3d c) {
+    return larger_of(larger_of(largest_component(a), largest_component(b)), largest_component(c));
 }
 
 /// Whether the exact edge functions may agree in sign.
 TRG_FN bool is_inside(const RelativeCorners& p, Vec3d direction) {
     const EdgeFunctions e = edge_functions(p, direction);
-    const double a = largest_component(p.a), b = largest_component(p.b), c = largest_component(p.c);
-    const double ab = a > b ? a : b, size = ab > c ? ab : c;
     const Vec3d d = direction;
-    const double bound =
-        20 * 0x1p-53 * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z)) * size * size;
+    const double bound = 20 * 0x1p-53 * (std::fabs(d.x) + std::fabs(d.y) + std::fabs(d.z)) *
+                         largest_of(p.a, p.b, p.c) * largest_of(p.bc, p.ca, p.ab);
     return (e.u >= -bound && e.v >= -bound && e.w >= -bound) ||
            (e.u <= bound && e.v <= bound && e.w <= bound);
 }

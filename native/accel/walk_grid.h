@@ -75,26 +75,32 @@ TRG_FN bool walk_cells(const Grid& grid, const TracedRay& ray, const float* limi
     }
 }
 
-/// Calls `visit(block)` for the blocks of the cells along the ray, those of finer grids included.
+/// Calls `visit(range)` for the blocks of the cells of `grid` along the ray, those of finer grids
+/// included.
+template <int kLevels, class Visit>
+TRG_FN bool walk_level(const GridIndex& index, const Grid& grid, const TracedRay& ray,
+                       const float* limit, Visit& visit) {
+    return walk_cells(grid, ray, limit, [&](int64_t cell) {
+        const BlockRange blocks = index.cells[grid.first_cell + cell];
+        if constexpr (kLevels > 1)
+            if (blocks.end == kDivided)
+                return walk_level<kLevels - 1>(index, index.grids[blocks.begin], ray, limit, visit);
+        return visit(blocks);
+    });
+}
+
+/// Calls `visit(block)` for the blocks that the ray comes by.
 template <class Visit>
 TRG_FN bool walk_grid(const GridIndex& index, const TracedRay& ray, const float* limit, Visit visit) {
     uint32_t last = ~0u;
-    const auto visit_blocks = [&](int64_t cell) {
-        const BlockRange blocks = index.cells[cell];
-        if (blocks.begin == last) return false;   // the blocks of the cell before
+    const auto visit_blocks = [&](const BlockRange& blocks) {
+        if (blocks.begin == last) return false;   // those of the cell before
         for (uint32_t k = blocks.begin; k < blocks.end; ++k)
             if (visit(k)) return true;
         if (blocks.begin < blocks.end) last = blocks.begin;
         return false;
     };
-    if (index.inner.empty()) return walk_cells(index.outer, ray, limit, visit_blocks);
-    return walk_cells(index.outer, ray, limit, [&](int64_t cell) {
-        const int32_t inner = index.inner_of_cell[cell];
-        if (inner < 0) return visit_blocks(cell);
-        const Grid& grid = index.inner[inner];
-        return walk_cells(grid, ray, limit,
-                          [&](int64_t part) { return visit_blocks(grid.first_cell + part); });
-    });
+    return walk_level<kMostGridLevels>(index, index.grids[0], ray, limit, visit_blocks);
 }
 
 }  // namespace trg::TRG_ISA

