@@ -16,7 +16,8 @@ from oracle import Oracle, OutOfSteps, Refusal  # noqa: E402
 NAMES = ("a", "b", "c", "i")
 HEAD = (
     'if (0) { a = 0; b = 0; c = 0; i = 0; o = object(); o.x = 0; }\n'
-    "f = function(p, q) { r = p; if (p < q) { r = r + 1; } while (r < 3) { r++; if (q) break; } return r - q; };\n"
+    "f = function(p, q) { r = p; if (p < q) { r = r + 1; } "
+    "while (r < 3) { r++; if (q) break; } return r - q; };\n"
     "g = function(p) { #a = p; if (!p) return; return #f(p, 1); };\n"
 )  # fmt: skip
 _ATOMS = st.sampled_from(

@@ -9,7 +9,7 @@ from .values import TrgError, Value, compare, compute, format_number
 _new = tuple.__new__
 
 
-class Vec3(tuple, Value):
+class Vec3(tuple, Value):  # type: ignore[misc]
     """Three floats. Made by `Vec3.of`; a tuple underneath, because that is immutable and fast."""
 
     __slots__ = ()

@@ -83,7 +83,8 @@ def _describe_repairs(title: str, replaced: int, uvs: np.ndarray, colors: np.nda
 def pack_block(primitive: Primitive) -> bytes:
     """Vertices and indices of `primitive`; ValueError when its arrays do not fit together."""
     count = len(primitive.vertices)
-    if primitive.triangles.size and not 0 <= primitive.triangles.min() <= primitive.triangles.max() < count:
+    used = np.asarray(primitive.triangles)
+    if used.size and not 0 <= np.min(used) <= np.max(used) < count:
         raise ValueError("a triangle names a vertex that is not there")
     columns = (primitive.vertices, primitive.uvs, primitive.normals, primitive.colors)
     vertices: np.ndarray = np.concatenate([np.asarray(column, dtype="<f4") for column in columns], axis=1)
