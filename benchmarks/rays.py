@@ -3,8 +3,9 @@
 Usage: python -m benchmarks.rays [SCENE | MODEL.g3dm ...] [--rays N] [--rounds N] [--accel NAME ...]
        [--threads N] [--cache FOLDER] [--json FILE]
 
-Every round traces the same rays once with each tracer, so that a busy machine slows all; a speed is
-the best round's, in rays per second of one processor (processor time, not the clock on the wall).
+Every round traces the same rays once with each tracer, so that a busy machine slows all. Speeds are
+the best round's, in rays per second of processor time (not of the clock on the wall); ratios are
+medians over the rounds.
 """
 
 from __future__ import annotations
@@ -18,6 +19,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from .embree_c import WAYS, Embree, EmbreeScene
 from .ray_scenes import ROOT, SCENES, Mesh, Rays, Results, empty_results, ray_sets, read_g3dm, read_scene
@@ -40,8 +42,6 @@ class Tracer:
     trace: Trace
     shadows: bool = True
     """whether it knows any-hit queries"""
-    once: bool = False
-    """slow: only primary and diffuse rays, for the ratio through Python"""
 
 
 def native_tracer(mesh: Mesh, accel: str, threads: int) -> tuple[Tracer, Built]:
@@ -107,17 +107,20 @@ def embreex_tracer(mesh: Mesh) -> Tracer:
     return Tracer("embreex", trace, shadows=False)
 
 
-def measure(tracers: list[Tracer], rays: Rays, rounds: int, threads: int) -> dict[str, float]:
-    """Mrays/s of each tracer: rays over processor seconds, times threads."""
+Times = dict[str, NDArray[np.float64]]
+
+
+def measure(tracers: list[Tracer], rays: Rays, rounds: int) -> Times:
+    """Processor seconds of each tracer, round by round; a first round that warms up is not counted."""
     results = empty_results(len(rays.origins))
     able = [t for t in tracers if t.shadows or not rays.shadow]
-    best = dict.fromkeys((t.name for t in able), np.inf)
-    for _ in range(rounds):
-        for tracer in able:
+    times = np.empty((rounds + 1, len(able)))
+    for row in times:
+        for column, tracer in enumerate(able):
             start = time.process_time()
             tracer.trace(rays, results)
-            best[tracer.name] = min(best[tracer.name], time.process_time() - start)
-    return {name: len(rays.origins) * threads / seconds / 1e6 for name, seconds in best.items()}
+            row[column] = time.process_time() - start
+    return {tracer.name: times[1:, column] for column, tracer in enumerate(able)}
 
 
 def agreement(tracers: list[Tracer], rays: Rays) -> float:
@@ -130,18 +133,20 @@ def agreement(tracers: list[Tracer], rays: Rays) -> float:
     return float(np.mean(answers[0] == answers[1]))
 
 
-def ratios(speeds: dict[str, float], ours: str) -> dict[str, float]:
-    """Our speed over those that the targets name."""
-    packets = max(speeds["embree packets"], speeds["embree coherent"])
-    single = max(speeds["embree medium"], speeds["embree high"])
+def ratios(times: Times, ours: str) -> dict[str, float]:
+    """Our speed over those that the targets name: medians over the rounds."""
+
+    def over(*peers: str) -> float:
+        return float(np.median(np.min([times[f"embree {p}"] for p in peers], axis=0) / times[ours]))
+
     result = {
-        "robust": speeds[ours] / speeds["embree robust"],
-        "single": speeds[ours] / single,
-        "packets": speeds[ours] / packets,
-        "better": speeds[ours] / max(single, packets),
+        "robust": over("robust"),
+        "single": over("medium", "high"),
+        "packets": over("packets", "coherent"),
+        "better": over("medium", "high", "packets", "coherent"),
     }
-    if "embreex" in speeds:
-        result["embreex"] = speeds[ours] / speeds["embreex"]
+    if "embreex" in times:
+        result["embreex"] = float(np.median(times["embreex"] / times[ours]))
     return result
 
 
@@ -171,8 +176,9 @@ def report_scene(name: str, mesh: Mesh, embree: Embree, arguments: argparse.Name
         + "  trg / robust single packets embreex"
     )
     for rays in ray_sets(mesh, arguments.rays, nearest):
-        speeds = measure(tracers, rays, arguments.rounds, threads)
-        found = ratios(speeds, tracers[0].name)
+        times = measure(tracers, rays, arguments.rounds)
+        found = ratios(times, tracers[0].name)
+        speeds = {name: len(rays.origins) * threads / np.min(t) / 1e6 for name, t in times.items()}
         rows[rays.name] = {"speeds": speeds, "ratios": found, "count": len(rays.origins)}
         shown = " ".join(f"{speeds.get(t.name, np.nan):9.2f}" for t in tracers)
         same = agreement([tracers[0], peers[0]], rays)

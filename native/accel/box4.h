@@ -11,11 +11,17 @@ struct Box4 {
     Float4 lo, hi;
 };
 
-TRG_FN Box4 empty_box() { return {splat4(HUGE_VALF), splat4(-HUGE_VALF)}; }
+TRG_FN Box4 empty_box() {
+    return {splat4(HUGE_VALF), splat4(-HUGE_VALF)};
+}
 
-TRG_FN Box4 united(const Box4& a, const Box4& b) { return {min4(a.lo, b.lo), max4(a.hi, b.hi)}; }
+TRG_FN Box4 united(const Box4& a, const Box4& b) {
+    return {min4(a.lo, b.lo), max4(a.hi, b.hi)};
+}
 
-TRG_FN Box4 rows_of(const PrimRef& ref) { return {load4(&ref.lo.x), load4(&ref.hi.x)}; }
+TRG_FN Box4 rows_of(const PrimRef& ref) {
+    return {load4(&ref.lo.x), load4(&ref.hi.x)};
+}
 
 TRG_FN Bounds bounds_of(const Box4& box) {
     float lo[4], hi[4];
@@ -43,7 +49,9 @@ struct Extent {
     Float4 need;
 };
 
-TRG_FN Extent empty_extent() { return {empty_box(), empty_box(), splat4(0)}; }
+TRG_FN Extent empty_extent() {
+    return {empty_box(), empty_box(), splat4(0)};
+}
 
 TRG_FN void grow(Extent* extent, const Box4& box) {
     const Float4 centre = box.lo + box.hi;

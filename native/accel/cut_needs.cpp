@@ -11,16 +11,19 @@ namespace trg {
 namespace {
 
 constexpr int64_t kGrain = 1 << 13;
-constexpr double kBudget = 0.25;         // cuts per reference
-constexpr double kLeastGain = 0.12;      // of the area of all boxes
-constexpr int kMostCuts = 1 << 10;       // of one triangle
+constexpr double kBudget = 0.25;     // cuts per reference
+constexpr double kLeastGain = 0.25;  // of the area of all boxes
+constexpr double kMostOfOne = 0.01;  // of it that one triangle counts for
+constexpr int kMostCuts = 1 << 10;   // of one triangle
 constexpr int kGridBits = 20;
 constexpr int kBisections = 24;
 
-double along(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+double along(const Vec3& v, int axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
 
-/// Planes at binary fractions of a cube round the scene: the coarser the plane that a box straddles,
-/// the higher in the tree it is in the way.
+/// Planes at binary fractions of a cube round the scene: the coarser the plane that a box
+/// straddles, the higher in the tree it is in the way.
 struct Lattice {
     double low[3];
     double edge;
@@ -110,7 +113,8 @@ int64_t count_cuts(const Candidates& candidates, double scale, int threads) {
 double scale_of_cuts(const Candidates& candidates, int threads) {
     const auto budget = static_cast<int64_t>(kBudget * static_cast<double>(candidates.of.size()));
     float highest = 0;
-    for (const Candidate& candidate : candidates.of) highest = std::max(highest, candidate.priority);
+    for (const Candidate& candidate : candidates.of)
+        highest = std::max(highest, candidate.priority);
     if (!(highest > 0) || !std::isfinite(highest)) return 0;
     double low = 0, high = kMostCuts / static_cast<double>(highest);
     if (count_cuts(candidates, high, threads) <= budget) return high;
@@ -121,19 +125,21 @@ double scale_of_cuts(const Candidates& candidates, int threads) {
     return low;
 }
 
-/// The share of all box area that the cuts save, by estimate: n cuts leave 1 / (n + 1) of the excess.
+/// The share of all box area that the cuts save, by estimate: n cuts leave 1 / (n + 1) of the
+/// excess. A few huge triangles, the ground of a scene, do not make it worth while.
 double estimated_gain(const Candidates& candidates, double scale) {
     double saved = 0;
     for (const Candidate& candidate : candidates.of) {
         const int cuts = cuts_of(candidate, scale);
-        saved += candidate.excess * (cuts / (cuts + 1.0));
+        saved += std::min(candidate.excess * (cuts / (cuts + 1.0)), kMostOfOne * candidates.area);
     }
     return candidates.area > 0 ? saved / candidates.area : 0;
 }
 
 }  // namespace
 
-int64_t measure_needs(std::vector<PrimRef>& refs, const Bounds& bounds, const SplitSettings& settings) {
+int64_t measure_needs(std::vector<PrimRef>& refs, const Bounds& bounds,
+                      const SplitSettings& settings) {
     const Lattice lattice = lattice_over(bounds);
     if (!(lattice.edge > 0)) return 0;
     const Candidates candidates = weigh_refs(refs, lattice, *settings.corners, settings.threads);

@@ -13,10 +13,14 @@ namespace {
 
 constexpr int kCutBins = 16;
 constexpr int64_t kGrain = 1 << 13;
-constexpr double kUnit = 0x1p-23, kLeast = 1e-37;   // more than rounding to float can take away
+constexpr double kUnit = 0x1p-23, kLeast = 1e-37;  // more than rounding to float can take away
 
-double along(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-float& at(Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
+double along(const Vec3& v, int axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
+float& at(Vec3& v, int axis) {
+    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
+}
 
 struct CutPlane {
     int axis;
@@ -39,7 +43,7 @@ void clip_triangle(const TriangleCorners& triangle, const CutPlane& plane, PartB
     for (int k = 0; k < 3; ++k)
         for (int axis = 0; axis < 3; ++axis) p[k][axis] = along(triangle.p[k], axis);
     for (int k = 0; k < 3; ++k) {
-        const double(&a)[3] = p[k], (&b)[3] = p[(k + 1) % 3];
+        const double (&a)[3] = p[k], (&b)[3] = p[(k + 1) % 3];
         const double from = a[plane.axis] - plane.position, to = b[plane.axis] - plane.position;
         if (from <= 0) parts[0].add(a);
         if (from >= 0) parts[1].add(a);
@@ -56,8 +60,10 @@ void clip_triangle(const TriangleCorners& triangle, const CutPlane& plane, PartB
 /// `ref` held to `part`, rounded outwards, so that the parts together hold all that `ref` did.
 PrimRef part_of(PrimRef ref, const PartBox& part) {
     for (int axis = 0; axis < 3; ++axis) {
-        const auto lo = static_cast<float>(part.lo[axis] - std::fabs(part.lo[axis]) * kUnit - kLeast);
-        const auto hi = static_cast<float>(part.hi[axis] + std::fabs(part.hi[axis]) * kUnit + kLeast);
+        const auto lo =
+            static_cast<float>(part.lo[axis] - std::fabs(part.lo[axis]) * kUnit - kLeast);
+        const auto hi =
+            static_cast<float>(part.hi[axis] + std::fabs(part.hi[axis]) * kUnit + kLeast);
         at(ref.lo, axis) = std::max(at(ref.lo, axis), lo);
         at(ref.hi, axis) = std::min(at(ref.hi, axis), hi);
     }
@@ -87,8 +93,8 @@ struct CutBin {
 
 struct CutBins {
     CutBin bin[kCutBins];
-    float plane[kCutBins];   // plane[k] is the low side of slab k
-    float scale;             // slabs a unit of length
+    float plane[kCutBins];  // plane[k] is the low side of slab k
+    float scale;            // slabs a unit of length
     int axis;
 };
 
@@ -121,7 +127,9 @@ SlabRange slabs_of(const CutBins& bins, float lo, float hi) {
     return {first, std::max(first, last)};
 }
 
-void grow_bin(CutBin& bin, Float4 p) { bin.box = united(bin.box, Box4{p, p}); }
+void grow_bin(CutBin& bin, Float4 p) {
+    bin.box = united(bin.box, Box4{p, p});
+}
 
 /// Adds an edge's points on the planes within `slabs`, held to `box`.
 void add_edge(CutBins& bins, const SlabRange& slabs, const Box4& box, const float* a,
@@ -171,7 +179,7 @@ void merge_bins(CutBins& bins, const CutBins& part) {
 }
 
 /// Axes along which a range is long enough for cuts to matter.
-constexpr double kLeastExtent = 0.1;   // of the longest
+constexpr double kLeastExtent = 0.1;  // of the longest
 
 struct AllCutBins {
     CutBins along[3];
@@ -202,13 +210,14 @@ AllCutBins cut_bins_of(const PrimRef* refs, const PrimRange& range, const SplitS
         return bins;
     }
     std::mutex mutex;
-    parallel_for(range.end - range.begin, kGrain, settings.threads, [&](int64_t begin, int64_t end) {
-        AllCutBins part = empty_cut_bins(range.box);
-        fill_cut_bins(refs, range.begin + begin, range.begin + end, *settings.corners, part);
-        const std::lock_guard<std::mutex> lock(mutex);
-        for (int axis = 0; axis < bins.count; ++axis)
-            merge_bins(bins.along[axis], part.along[axis]);
-    });
+    parallel_for(
+        range.end - range.begin, kGrain, settings.threads, [&](int64_t begin, int64_t end) {
+            AllCutBins part = empty_cut_bins(range.box);
+            fill_cut_bins(refs, range.begin + begin, range.begin + end, *settings.corners, part);
+            const std::lock_guard<std::mutex> lock(mutex);
+            for (int axis = 0; axis < bins.count; ++axis)
+                merge_bins(bins.along[axis], part.along[axis]);
+        });
     return bins;
 }
 
@@ -236,7 +245,8 @@ void choose_cut(const CutBins& bins, const PrimRange& range, int block_width, Cu
     for (int k = 1; k < kCutBins; ++k) {
         box = united(box, bins.bin[k - 1].box);
         count += bins.bin[k - 1].enter;
-        if (count == 0 || right_count[k] == 0 || count >= items || right_count[k] >= items) continue;
+        if (count == 0 || right_count[k] == 0 || count >= items || right_count[k] >= items)
+            continue;
         if (count + right_count[k] > items + range.room) continue;
         const double cost =
             cost_of(box, count, block_width) + cost_of(right[k], right_count[k], block_width);
@@ -278,8 +288,7 @@ void sort_ref(const PrimRef& ref, const SplitSettings& settings, CutChoice& choi
     if (lo >= choice.plane.position) return halves.add(1, ref);
     const Side side = side_of(choice, rows_of(ref));
     PrimRef parts[2];
-    if (side == Side::both &&
-        cut_ref((*settings.corners)(ref.item), choice.plane, ref, parts)) {
+    if (side == Side::both && cut_ref((*settings.corners)(ref.item), choice.plane, ref, parts)) {
         halves.add(0, parts[0]);
         halves.add(1, parts[1]);
     } else if (side == Side::right) {

@@ -11,17 +11,17 @@ namespace trg::TRG_ISA {
 constexpr int kPacketRays = 16;
 constexpr int kPacketGroups = kPacketRays / kWidth;
 
-/// Rays side by side. What the float filter needs is relative to `centre`, a point among the origins:
-/// a directed line is its (scaled) direction D and its moment D x (origin - centre).
+/// Rays side by side. What the float filter needs is relative to `centre`, a point among the
+/// origins: a directed line is its (scaled) direction D and its moment D x (origin - centre).
 struct alignas(64) RayPacket {
     float origin[3][kPacketRays], direction[3][kPacketRays];
     float line[3][kPacketRays], moment[3][kPacketRays];
     float t_min[kPacketRays], t_max[kPacketRays];
     float centre[3];
-    float line_low[3], line_high[3];       // of `line`
-    float moment_low[3], moment_high[3];   // of `moment`
-    float spread;                          // largest component of an origin - centre
-    float line_length;                     // largest |x| + |y| + |z| of `line`
+    float line_low[3], line_high[3];      // of `line`
+    float moment_low[3], moment_high[3];  // of `moment`
+    float spread;                         // largest component of an origin - centre
+    float line_length;                    // largest |x| + |y| + |z| of `line`
     RayBounds bounds;
 };
 
@@ -132,9 +132,8 @@ TRG_FN void fill_lines(RayPacket& packet, const RayExtent& extent) {
     for (int axis = 0; axis < 3; ++axis) {
         const int a = (axis + 1) % 3, b = (axis + 2) % 3;
         for (int k = 0; k < kPacketRays; ++k)
-            packet.moment[axis][k] =
-                packet.line[a][k] * (packet.origin[b][k] - packet.centre[b]) -
-                packet.line[b][k] * (packet.origin[a][k] - packet.centre[a]);
+            packet.moment[axis][k] = packet.line[a][k] * (packet.origin[b][k] - packet.centre[b]) -
+                                     packet.line[b][k] * (packet.origin[a][k] - packet.centre[a]);
         range_of(packet.moment[axis], &packet.moment_low[axis], &packet.moment_high[axis]);
     }
 }

@@ -73,7 +73,8 @@ Bins empty_bins(int count) {
     return bins;
 }
 
-void fill_bins(const PrimRef* refs, int64_t begin, int64_t end, const Binning& binning, Bins* bins) {
+void fill_bins(const PrimRef* refs, int64_t begin, int64_t end, const Binning& binning,
+               Bins* bins) {
     for (int64_t k = begin; k < end; ++k) {
         const Box4 box = rows_of(refs[k]);
         int at[4];
@@ -139,8 +140,8 @@ double overlap_of(const Bins& bins, const Binning& binning, const Plane& plane) 
     for (int k = plane.bin; k < binning.count; ++k)
         right = united(right, bins.bin[plane.axis][k].box);
     const Bounds shared = bounds_of({max4(left.lo, right.lo), min4(left.hi, right.hi)});
-    const bool apart = shared.lo.x > shared.hi.x || shared.lo.y > shared.hi.y ||
-                       shared.lo.z > shared.hi.z;
+    const bool apart =
+        shared.lo.x > shared.hi.x || shared.lo.y > shared.hi.y || shared.lo.z > shared.hi.z;
     return apart ? 0 : half_area(shared);
 }
 

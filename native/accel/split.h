@@ -10,8 +10,8 @@
 
 namespace trg {
 
-/// The box of one item of a tree, and which item it is: two rows of four numbers. `need` is how many
-/// cuts of the item would pay; 0 where nothing is cut.
+/// The box of one item of a tree, and which item it is: two rows of four numbers. `need` is how
+/// many cuts of the item would pay; 0 where nothing is cut.
 struct alignas(16) PrimRef {
     Vec3 lo;
     int32_t item;
@@ -19,8 +19,12 @@ struct alignas(16) PrimRef {
     float need;
 };
 
-TRG_FN PrimRef make_ref(const Bounds& box, int32_t item) { return {box.lo, item, box.hi, 0}; }
-TRG_FN Bounds box_of(const PrimRef& ref) { return {ref.lo, ref.hi}; }
+TRG_FN PrimRef make_ref(const Bounds& box, int32_t item) {
+    return {box.lo, item, box.hi, 0};
+}
+TRG_FN Bounds box_of(const PrimRef& ref) {
+    return {ref.lo, ref.hi};
+}
 
 /// A run of references with the box of them all and the box of their (doubled) centres. After `end`
 /// there is room for `room` more, which cuts may fill.
@@ -36,10 +40,10 @@ struct PrimRange {
 using CornersOf = std::function<TriangleCorners(int64_t item)>;
 
 struct SplitSettings {
-    int block_width;   // items are paid for in blocks of this many
+    int block_width;  // items are paid for in blocks of this many
     int threads;
-    const CornersOf* corners = nullptr;   // null: items are never cut
-    double root_area = 0;                 // half the surface of the whole, where items may be cut
+    const CornersOf* corners = nullptr;  // null: items are never cut
+    double root_area = 0;                // half the surface of the whole, where items may be cut
 };
 
 /// Range of refs[begin..end), its boxes measured.

@@ -1,8 +1,9 @@
 /// Sixteen rays against eight triangles: the watertight test, its float filter in Pluecker's form.
 ///
-/// A triangle's edges and their moments are computed once for all rays. The beam of the rays discards
-/// most triangles; for the others an edge function is a dot product per ray (Shevtsov et al. 2007 go
-/// the same way for a kd-tree). Which hits count, and where, is decided as for a ray alone.
+/// A triangle's edges and their moments are computed once for all rays. The beam of the rays
+/// discards most triangles; for the others an edge function is a dot product per ray (Shevtsov et
+/// al. 2007 go the same way for a kd-tree). Which hits count, and where, is decided as for a ray
+/// alone.
 #pragma once
 
 #include "accel/ray_packet.h"
@@ -31,8 +32,8 @@ TRG_FN ExactRay exact_ray(const RayPacket& packet, int k) {
             {packet.direction[0][k], packet.direction[1][k], packet.direction[2][k]}};
 }
 
-/// Edges of eight triangles, and their moments about the packet's centre: edge k is opposite corner k.
-/// An edge function is line . moment - edge . (moment of the line), exact within `bound`.
+/// Edges of eight triangles, and their moments about the packet's centre: edge k is opposite corner
+/// k. An edge function is line . moment - edge . (moment of the line), exact within `bound`.
 struct BlockEdges {
     alignas(64) float edge[3][3][kWidth];
     float moment[3][3][kWidth];
@@ -108,9 +109,16 @@ TRG_FN uint32_t relate_block(const CornerBlock& block, const RayPacket& packet, 
     return mask_less_equal(negate8(wide), least) | mask_less_equal(most, wide);
 }
 
+/// The rays of a group of eight that may pass inside a triangle, and those that surely do.
+struct GroupMasks {
+    int group;
+    uint32_t possible, certain;
+};
+
 /// Which of the eight rays of group `group` pass triangle `lane` inside.
 template <bool kOneOrigin>
-TRG_FN LaneMasks filter_rays(const BlockEdges& edges, int lane, const RayPacket& packet, int group) {
+TRG_FN GroupMasks filter_rays(const BlockEdges& edges, int lane, const RayPacket& packet,
+                              int group) {
     const int first = group * kWidth;
     Float8 value[3];
     for (int k = 0; k < 3; ++k) {
@@ -126,9 +134,15 @@ TRG_FN LaneMasks filter_rays(const BlockEdges& edges, int lane, const RayPacket&
     const Float8 least = min8(min8(value[0], value[1]), value[2]);
     const Float8 most = max8(max8(value[0], value[1]), value[2]);
     const Float8 bound = splat8(edges.bound[lane]), minus = splat8(-edges.bound[lane]);
-    return {mask_less_equal(minus, least) | mask_less_equal(most, bound),
+    return {group, mask_less_equal(minus, least) | mask_less_equal(most, bound),
             mask_less(bound, least) | mask_less(most, minus)};
 }
+
+/// One triangle of a block.
+struct LaneOf {
+    const CornerBlock& block;
+    int lane;
+};
 
 struct PlaneOfLane {
     Vec3d normal, point;
@@ -153,15 +167,16 @@ TRG_FN void plane_distances(const PlaneOfLane& plane, const RayPacket& packet, i
     }
 }
 
-/// The rays of a group that meet triangle `lane` in front of `before` (or there), with their distances.
-TRG_FN uint32_t meet_rays(const CornerBlock& block, int lane, const LaneMasks& rays,
-                          const RayPacket& packet, int group, const float* before,
-                          float (&t)[kWidth]) {
-    plane_distances(plane_of(block, lane), packet, group, t);
+/// The rays of a group that meet triangle `lane` in front of `before` (or there), with their
+/// distances.
+TRG_FN uint32_t meet_rays(const LaneOf& triangle, const GroupMasks& rays, const RayPacket& packet,
+                          const float* before, float (&t)[kWidth]) {
+    const int group = rays.group;
+    plane_distances(plane_of(triangle.block, triangle.lane), packet, group, t);
     const int first = group * kWidth;
     for (uint32_t left = rays.possible & ~rays.certain; left; left &= left - 1) {
         const int k = lowest_bit(left);
-        t[k] = lane_distance(block, lane, false, exact_ray(packet, first + k));
+        t[k] = lane_distance(triangle.block, triangle.lane, false, exact_ray(packet, first + k));
     }
     const Float8 at = load8(t);
     return rays.possible & mask_less(load8(packet.t_min + first), at) &
@@ -176,10 +191,10 @@ TRG_FN void test_closest(const CornerBlock& block, const RayPacket& packet, Pack
          lanes &= lanes - 1) {
         const int lane = lowest_bit(lanes);
         for (int group = 0; group < kPacketGroups; ++group) {
-            const LaneMasks rays = filter_rays<kOneOrigin>(edges, lane, packet, group);
+            const GroupMasks rays = filter_rays<kOneOrigin>(edges, lane, packet, group);
             if (!rays.possible) continue;
             alignas(32) float t[kWidth];
-            uint32_t met = meet_rays(block, lane, rays, packet, group, search.t, t);
+            uint32_t met = meet_rays({block, lane}, rays, packet, search.t, t);
             for (; met; met &= met - 1) {
                 const int k = lowest_bit(met), ray = group * kWidth + k;
                 if (!improves(search.ray[ray], t[k], block.prim[lane])) continue;
@@ -191,7 +206,8 @@ TRG_FN void test_closest(const CornerBlock& block, const RayPacket& packet, Pack
     }
     if (!changed) return;
     float farthest = search.t[0];
-    for (int k = 1; k < kPacketRays; ++k) farthest = search.t[k] > farthest ? search.t[k] : farthest;
+    for (int k = 1; k < kPacketRays; ++k)
+        farthest = search.t[k] > farthest ? search.t[k] : farthest;
     search.limit = farthest * kFarFactor;
 }
 
@@ -203,11 +219,11 @@ TRG_FN void test_any(const CornerBlock& block, const RayPacket& packet, uint32_t
          lanes &= lanes - 1) {
         const int lane = lowest_bit(lanes);
         for (int group = 0; group < kPacketGroups; ++group) {
-            LaneMasks rays = filter_rays<kOneOrigin>(edges, lane, packet, group);
+            GroupMasks rays = filter_rays<kOneOrigin>(edges, lane, packet, group);
             rays.possible &= ~(*hidden >> (group * kWidth)) & ((1u << kWidth) - 1);
             if (!rays.possible) continue;
             alignas(32) float t[kWidth];
-            const uint32_t met = meet_rays(block, lane, rays, packet, group, packet.t_max, t) &
+            const uint32_t met = meet_rays({block, lane}, rays, packet, packet.t_max, t) &
                                  mask_less(load8(t), load8(packet.t_max + group * kWidth));
             *hidden |= met << (group * kWidth);
         }

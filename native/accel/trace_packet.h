@@ -32,7 +32,8 @@ TRG_FN bool search_soup(const Soup& soup, const RayPacket& packet, PacketSearch&
     return !walk_nodes<true, QuickBoxTest>(soup.tree, packet.bounds, &search.limit, visit);
 }
 
-/// Finds the best hits; false when the rays part too much: then what was found is not the end of it.
+/// Finds the best hits; false when the rays part too much: then what was found is not the end of
+/// it.
 TRG_FN bool search_soup(const Soup& soup, const RayPacket& packet, PacketSearch& search) {
     return packet.spread == 0 ? search_soup<true>(soup, packet, search)
                               : search_soup<false>(soup, packet, search);

@@ -27,12 +27,14 @@ struct Task {
 struct Builder {
     std::vector<PrimRef>& refs;
     const SplitSettings settings;
-    const int64_t task_size;      // ranges up to this size become tasks; 0: none does
+    const int64_t task_size;  // ranges up to this size become tasks; 0: none does
     std::vector<Task> tasks;
     Tree tree;
 };
 
-int64_t item_count(const PrimRange& range) { return range.end - range.begin; }
+int64_t item_count(const PrimRange& range) {
+    return range.end - range.begin;
+}
 
 NodeRef add_leaf(Builder& builder, const PrimRange& range) {
     const auto leaf = static_cast<uint32_t>(builder.tree.leaves.size());
@@ -40,8 +42,9 @@ NodeRef add_leaf(Builder& builder, const PrimRange& range) {
     return kLeafBit | leaf;
 }
 
-/// The child to open next: the widest, where a small one whose leaves would not all find room in the
-/// free slots counts for less, because its parts become nodes with few children. -1: all are leaves.
+/// The child to open next: the widest, where a small one whose leaves would not all find room in
+/// the free slots counts for less, because its parts become nodes with few children. -1: all are
+/// leaves.
 int choose_child(const PrimRange children[kWidth], int count, int block_width) {
     const int64_t fits_one_node = int64_t{kWidth} * block_width * 7 / 8;
     const int64_t fits_free_slots = int64_t{kWidth + 1 - count} * block_width;
@@ -67,8 +70,10 @@ int open_children(Builder& builder, const PrimRange& range, int level, PrimRange
         const int opened = choose_child(children, count, builder.settings.block_width);
         if (opened < 0) break;
         PrimRange halves[2];
-        if (level > kDeepLevel) split_by_count(builder.refs.data(), children[opened], halves);
-        else split_range(builder.refs.data(), children[opened], builder.settings, halves);
+        if (level > kDeepLevel)
+            split_by_count(builder.refs.data(), children[opened], halves);
+        else
+            split_range(builder.refs.data(), children[opened], builder.settings, halves);
         children[opened] = halves[0];
         children[count++] = halves[1];
     }

@@ -16,13 +16,13 @@ struct LeafRange {
 struct Tree {
     AlignedVector<WideNode> nodes;
     std::vector<LeafRange> leaves;
-    NodeRef root = kNoNode;   // a leaf when there are few items, kNoNode when there are none
+    NodeRef root = kNoNode;  // a leaf when there are few items, kNoNode when there are none
     Bounds bounds = empty_bounds();
 };
 
-/// The tree over `refs`, which are put in the order of the leaves, with gaps where items could be but
-/// were not cut. A leaf is one block of at most `settings.block_width` items; an item that was cut is
-/// in several. The tree does not depend on the number of threads.
+/// The tree over `refs`, which are put in the order of the leaves, with gaps where items could be
+/// but were not cut. A leaf is one block of at most `settings.block_width` items; an item that was
+/// cut is in several. The tree does not depend on the number of threads.
 Tree build_tree(std::vector<PrimRef>& refs, const SplitSettings& settings);
 
 /// What a random ray that meets the tree's box is expected to cost, in boxes met: the sum of all
