@@ -175,6 +175,11 @@ def test_missing_devices_and_modules_have_status_4(cube, tmp_path):
     assert done.returncode == 4 and "bpy cannot be loaded" in done.stderr and "pip install" in done.stderr
 
 
+def hear_interrupts() -> None:
+    """For a child: a shell that starts tests in the background has them ignore SIGINT, and that is inherited."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+
+
 def test_an_interrupt_has_status_3_and_leaves_no_file(cube, tmp_path):
     """^C while samples are traced."""
     picture = tmp_path / "long.png"
@@ -182,7 +187,7 @@ def test_an_interrupt_has_status_3_and_leaves_no_file(cube, tmp_path):
     environment = {**os.environ, "PYTHONPATH": str(ROOT)}
     with subprocess.Popen(
         [*command, "--samples", "3000", "--device", "embree"],
-        stderr=subprocess.PIPE, text=True, env=environment,
+        stderr=subprocess.PIPE, text=True, env=environment, preexec_fn=hear_interrupts,
     ) as process:  # fmt: skip
         assert "sample" in process.stderr.readline()
         process.send_signal(signal.SIGINT)
