@@ -176,7 +176,7 @@ def test_missing_devices_and_modules_have_status_4(cube, tmp_path):
 
 
 def hear_interrupts() -> None:
-    """For a child: a shell that starts tests in the background has them ignore SIGINT, and that is inherited."""
+    """For a child: tests started by a shell in the background ignore SIGINT, and children inherit that."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
