@@ -9,6 +9,8 @@ SHELL := /bin/bash
 .SHELLFLAGS := -eu -o pipefail -c
 .DELETE_ON_ERROR:
 .SUFFIXES:
+# Stamps between a goal and its sources are kept; make would delete them as intermediate files.
+.SECONDARY:
 .PHONY: render test lint extension wheel clean distclean help
 
 VERSIONS := 3.11 3.13
