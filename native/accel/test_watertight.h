@@ -118,13 +118,17 @@ TRG_FN double within_corners(double t, const RelativeCorners& p, Vec3d direction
     return t < near - size ? near : t > far + size ? far : t;
 }
 
-/// Distance to a possible lane; NaN when it is not met after all.
-TRG_FN float lane_distance(const CornerBlock& block, int lane, bool certain, const ExactRay& ray) {
-    const double t = plane_distance(block, lane, ray);
-    if (certain) return static_cast<float>(t);
+/// Distance to a lane near whose edge the ray passes, `t` being its plane's; NaN when it is not met.
+TRG_RARE_FN float edge_distance(const CornerBlock& block, int lane, double t, const ExactRay& ray) {
     const RelativeCorners corners = relative_corners(block, lane, ray);
     if (!std::isfinite(t) || !is_inside(corners, ray.direction_d)) return NAN;
     return static_cast<float>(within_corners(t, corners, ray.direction_d));
+}
+
+/// Distance to a possible lane; NaN when it is not met after all.
+TRG_FN float lane_distance(const CornerBlock& block, int lane, bool certain, const ExactRay& ray) {
+    const double t = plane_distance(block, lane, ray);
+    return certain ? static_cast<float>(t) : edge_distance(block, lane, t, ray);
 }
 
 TRG_FN void test_closest(const CornerBlock& block, const TracedRay& ray, Search& search) {

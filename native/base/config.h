@@ -5,6 +5,13 @@
 /// copy, so that the linker can never put AVX code into the baseline build.
 #define TRG_FN [[maybe_unused]] static inline
 
+/// As TRG_FN, for what is rarely called and must not take registers from its callers.
+#if defined(__GNUC__)
+#define TRG_RARE_FN [[maybe_unused]] __attribute__((noinline, cold)) static
+#else
+#define TRG_RARE_FN [[maybe_unused]] static
+#endif
+
 /// Namespace of the instruction set that this unit is compiled for (baseline, avx2 or avx512).
 #ifndef TRG_ISA
 #define TRG_ISA baseline
