@@ -13,13 +13,13 @@ namespace {
 /// Nanoseconds on one thread, measured by benchmarks/accel_choice.py.
 struct CostModel {
     AccelKind accel;
-    double build;      // a triangle
-    double sorting;    // a triangle, for each doubling of the triangles
-    bool parallel;     // whether more threads build faster
-    double ray;        // a ray, whatever the scene
-    double doubling;   // a ray, for each doubling of the triangles
-    double block;      // a ray, for each eight triangles
-    double side;       // a ray, for each cube root of the triangles
+    double build;     // a triangle
+    double sorting;   // a triangle, for each doubling of the triangles
+    bool parallel;    // whether more threads build faster
+    double ray;       // a ray, whatever the scene
+    double doubling;  // a ray, for each doubling of the triangles
+    double block;     // a ray, for each eight triangles
+    double side;      // a ray, for each cube root of the triangles
 };
 
 constexpr CostModel kModels[] = {
@@ -32,7 +32,9 @@ constexpr CostModel kModels[] = {
 /// Meshes of the top level that a ray enters on its way, and what building it costs an instance.
 constexpr double kEntered = 2, kBuildInstance = 700;
 
-double doublings(double triangles) { return std::log2(1 + triangles / 8); }
+double doublings(double triangles) {
+    return std::log2(1 + triangles / 8);
+}
 
 double ray_cost(const CostModel& model, double triangles) {
     const double n = std::max(triangles, 1.0);
@@ -66,12 +68,18 @@ std::string format(const char* pattern, double a, double b) {
 
 const char* accel_name(AccelKind kind) {
     switch (kind) {
-        case AccelKind::bvh: return "bvh";
-        case AccelKind::grid: return "grid";
-        case AccelKind::grid2: return "grid2";
-        case AccelKind::tree: return "tree";
-        case AccelKind::none: return "none";
-        default: return "auto";
+        case AccelKind::bvh:
+            return "bvh";
+        case AccelKind::grid:
+            return "grid";
+        case AccelKind::grid2:
+            return "grid2";
+        case AccelKind::tree:
+            return "tree";
+        case AccelKind::none:
+            return "none";
+        default:
+            return "auto";
     }
 }
 
@@ -80,11 +88,14 @@ Workload workload_of(const World& world, double rays, int threads) {
     for (const Instance& instance : world.instances) ++uses[instance.mesh];
     Workload work{0, 0, rays, resolve_threads(threads)};
     for (size_t mesh = 0; mesh < uses.size(); ++mesh)
-        if (uses[mesh] > 0) work.triangles += static_cast<double>(world.meshes[mesh].triangles.size());
+        if (uses[mesh] > 0)
+            work.triangles += static_cast<double>(world.meshes[mesh].triangles.size());
     bool merged = false;
     for (const Instance& instance : world.instances) {
-        if (instance.identity && uses[instance.mesh] == 1) merged = true;
-        else work.placed += 1;
+        if (instance.identity && uses[instance.mesh] == 1)
+            merged = true;
+        else
+            work.placed += 1;
     }
     work.placed += merged ? 1 : 0;
     return work;

@@ -9,9 +9,9 @@ namespace trg {
 
 /// What an estimate rests on.
 struct Workload {
-    double triangles;   // that indices are built over, those of a mesh once
-    double placed;      // instances that have a place in the top level
-    double rays;        // to be traced; 0 is unknown
+    double triangles;  // that indices are built over, those of a mesh once
+    double placed;     // instances that have a place in the top level
+    double rays;       // to be traced; 0 is unknown
     int threads;
 };
 

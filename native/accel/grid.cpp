@@ -10,8 +10,8 @@ namespace trg {
 
 namespace {
 
-constexpr double kPadding = 1e-5;        // of the extent, besides a few units in the last place
-constexpr double kClosedMargin = 1e-4;   // of a cell
+constexpr double kPadding = 1e-5;       // of the extent, besides a few units in the last place
+constexpr double kClosedMargin = 1e-4;  // of a cell
 constexpr int kMostCellsAlong = 1024;
 constexpr int64_t kMostEntries = int64_t{1} << 31;
 constexpr double kMostCellsPerItem = 16, kMostEntriesPerItem = 32;
@@ -72,7 +72,9 @@ double share_of_cell(const Grid& grid) {
     return (c[0] * c[1] + c[1] * c[2] + c[2] * c[0]) / (x * y + y * z + z * x);
 }
 
-double blocks_for(uint32_t items) { return static_cast<double>((items + kWidth - 1) / kWidth); }
+double blocks_for(uint32_t items) {
+    return static_cast<double>((items + kWidth - 1) / kWidth);
+}
 
 /// Sum over cells of `cost_of(items)`, weighed by how often a line meets a cell; infinite where the
 /// lists would grow out of proportion.
@@ -90,7 +92,8 @@ double cost_when_divided(uint32_t items) {
     return std::min(whole, kEnterCost + kInnerCost * std::cbrt(static_cast<double>(items)));
 }
 
-/// The grid of least `cost(grid)` among those with 2^k times `first` cells, one cell if none will do.
+/// The grid of least `cost(grid)` among those with 2^k times `first` cells, one cell if none will
+/// do.
 template <class Cost>
 Grid search_grid(const Bounds& bounds, double first, double most, Cost cost) {
     Grid best = lay_grid(bounds, first);

@@ -1,4 +1,5 @@
-/// Regular grids over boxes, some of them within cells of others; each cell lists the items that touch it.
+/// Regular grids over boxes, some of them within cells of others; each cell lists the items that
+/// touch it.
 #pragma once
 
 #include <vector>
@@ -22,8 +23,8 @@ TRG_FN int64_t cell_count(const Grid& grid) {
     return int64_t{grid.size[0]} * grid.size[1] * grid.size[2];
 }
 
-/// Blocks of one cell; cells with the same items have the same ones. With `end` kDivided, the cell has
-/// a finer grid instead, number `begin`.
+/// Blocks of one cell; cells with the same items have the same ones. With `end` kDivided, the cell
+/// has a finer grid instead, number `begin`.
 struct BlockRange {
     uint32_t begin, end;
 };

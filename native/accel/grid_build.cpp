@@ -20,16 +20,18 @@ constexpr int64_t kMostCopies = 6;
 /// A finer grid must be expected to cost less than this share of the cell's blocks.
 constexpr double kWorthwhile = 0.8;
 
-/// A grid with the items of its cells, as indices of references, and the finer grids of some of them.
-/// A grid of no cells was not worthwhile.
+/// A grid with the items of its cells, as indices of references, and the finer grids of some of
+/// them. A grid of no cells was not worthwhile.
 struct Division {
     Grid grid;
     CellLists lists;
-    int64_t items = 0;             // in all of it
-    std::vector<Division> inner;   // by cell; empty when no cell has one
+    int64_t items = 0;            // in all of it
+    std::vector<Division> inner;  // by cell; empty when no cell has one
 };
 
-bool is_divided(const Division& division) { return !division.lists.begin.empty(); }
+bool is_divided(const Division& division) {
+    return !division.lists.begin.empty();
+}
 
 /// Where both boxes are; they meet.
 Bounds common(const Bounds& a, const Bounds& b) {
@@ -137,8 +139,9 @@ uint32_t append_division(const Division& division, KnownLists* known, GridIndex*
         const int64_t first = lists.begin[cell], count = lists.begin[cell + 1] - first;
         // Sought before it is stored: appending moves the cells.
         const BlockRange range =
-            divided ? BlockRange{append_division(division.inner[cell], known, index, runs), kDivided}
-                    : known->find_or_add(lists.items.data() + first, count, runs);
+            divided
+                ? BlockRange{append_division(division.inner[cell], known, index, runs), kDivided}
+                : known->find_or_add(lists.items.data() + first, count, runs);
         index->cells[first_cell + cell] = range;
     }
     return number;
@@ -151,8 +154,8 @@ void cut_into_runs(BlockItems& runs, int64_t first, int64_t last) {
         runs.begin.push_back(std::min<int64_t>(at + kWidth, last));
 }
 
-BlockItems build_grid(const std::vector<PrimRef>& refs, const Bounds& bounds, bool divide, int threads,
-                      GridIndex* index) {
+BlockItems build_grid(const std::vector<PrimRef>& refs, const Bounds& bounds, bool divide,
+                      int threads, GridIndex* index) {
     Division whole;
     whole.grid = divide ? best_outer_grid(bounds, refs) : best_grid(bounds, refs);
     whole.lists = list_cells(whole.grid, refs);

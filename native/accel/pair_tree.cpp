@@ -28,7 +28,8 @@ Bounds measure(const std::vector<PrimRef>& refs, int64_t begin, int64_t end) {
     return box;
 }
 
-/// Moves the half of [begin, end) that lies lower along `axis` to the front; equal centres go by item.
+/// Moves the half of [begin, end) that lies lower along `axis` to the front; equal centres go by
+/// item.
 int64_t halve(std::vector<PrimRef>& refs, int64_t begin, int64_t end, int axis) {
     const int64_t middle = begin + (end - begin) / 2;
     std::nth_element(refs.begin() + begin, refs.begin() + middle, refs.begin() + end,

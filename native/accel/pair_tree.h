@@ -9,13 +9,13 @@ namespace trg {
 
 /// A node with two children, at `first` and after it, or a leaf (`leaf`), which is block `first`.
 struct PairNode {
-    float bound[2][3];   // low and high corner
+    float bound[2][3];  // low and high corner
     uint32_t first;
     uint32_t leaf;
 };
 
 struct PairTree {
-    std::vector<PairNode> nodes;   // the root is node 0
+    std::vector<PairNode> nodes;  // the root is node 0
     std::vector<LeafRange> leaves;
 };
 

@@ -48,7 +48,8 @@ void pack_soup(Soup& soup, const SoupSource& source, const BlockItems& runs,
     const auto put = [&](auto& block, int64_t k) {
         for (int64_t at = runs.begin[k]; at < runs.begin[k + 1]; ++at) {
             const int32_t item = runs.items[at];
-            put_triangle(block, static_cast<int>(at - runs.begin[k]), corners_of(source, item), item);
+            put_triangle(block, static_cast<int>(at - runs.begin[k]), corners_of(source, item),
+                         item);
         }
     };
     const size_t count = runs.begin.size() - 1;
@@ -66,8 +67,7 @@ BlockItems runs_of_leaves(const std::vector<LeafRange>& leaves, const std::vecto
     runs.items.reserve(refs.size());
     runs.begin.assign(1, 0);
     for (const LeafRange& leaf : leaves) {
-        for (int32_t k = 0; k < leaf.count; ++k)
-            runs.items.push_back(refs[leaf.begin + k].item);
+        for (int32_t k = 0; k < leaf.count; ++k) runs.items.push_back(refs[leaf.begin + k].item);
         // Ascending items make the first of equal hits the one that counts.
         const auto first = runs.items.end() - leaf.count;
         std::sort(first, runs.items.end());
@@ -92,7 +92,8 @@ BlockItems index_refs(Soup& soup, std::vector<PrimRef>& refs, const SoupSource& 
     switch (soup.accel) {
         case AccelKind::grid:
         case AccelKind::grid2:
-            return build_grid(refs, soup.bounds, soup.accel == AccelKind::grid2, threads, &soup.grid);
+            return build_grid(refs, soup.bounds, soup.accel == AccelKind::grid2, threads,
+                              &soup.grid);
         case AccelKind::tree:
             soup.pairs = build_pair_tree(refs);
             runs = runs_of_leaves(soup.pairs.leaves, refs);

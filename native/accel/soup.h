@@ -14,9 +14,9 @@ struct PrimOrigin {
     int32_t triangle;
 };
 
-/// Blocks of one of the two kinds under one of the indices, or under nothing (every block is tried).
-/// A soup of another shape than triangles is that shape alone and has none of them.
-/// `prim` of a block is a triangle's index, or an index into `origins` when that is not empty.
+/// Blocks of one of the two kinds under one of the indices, or under nothing (every block is
+/// tried). A soup of another shape than triangles is that shape alone and has none of them. `prim`
+/// of a block is a triangle's index, or an index into `origins` when that is not empty.
 struct Soup {
     Shape shape = Shape::triangles;
     AccelKind accel = AccelKind::none;
@@ -29,7 +29,7 @@ struct Soup {
     Bounds bounds = empty_bounds();
     int64_t triangles = 0;
     int64_t degenerate = 0;
-    double built_cost = 0;   // of the tree when it was built
+    double built_cost = 0;  // of the tree when it was built
 };
 
 struct SoupSettings {
@@ -46,9 +46,9 @@ Soup build_merged_soup(const World& world, const std::vector<int32_t>& instances
                        const SoupSettings& settings);
 
 /// Takes the triangles from where the vertices are now (`mesh`; null: the soup is merged from
-/// `world`) and fits the boxes of its tree to them. Returns how much the tree's cost has grown since
-/// it was built. False instead of a number means that the soup must be built anew: it has no tree,
-/// or triangles without area came or may have gone.
+/// `world`) and fits the boxes of its tree to them. Returns how much the tree's cost has grown
+/// since it was built. False instead of a number means that the soup must be built anew: it has no
+/// tree, or triangles without area came or may have gone.
 struct Refit {
     bool possible;
     double growth;

@@ -6,9 +6,9 @@
 namespace trg {
 
 struct SoupSource {
-    const World* world;                       // of a merged soup
+    const World* world;  // of a merged soup
     const std::vector<PrimOrigin>* origins;
-    const Mesh* mesh;                         // of one mesh
+    const Mesh* mesh;  // of one mesh
     int64_t count;
 };
 

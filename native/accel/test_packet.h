@@ -167,10 +167,16 @@ TRG_FN void plane_distances(const PlaneOfLane& plane, const RayPacket& packet, i
     }
 }
 
+/// Distances along the rays of a group.
+struct GroupDistances {
+    alignas(32) float t[kWidth];
+};
+
 /// The rays of a group that meet triangle `lane` in front of `before` (or there), with their
 /// distances.
 TRG_FN uint32_t meet_rays(const LaneOf& triangle, const GroupMasks& rays, const RayPacket& packet,
-                          const float* before, float (&t)[kWidth]) {
+                          const float* before, GroupDistances& distances) {
+    float (&t)[kWidth] = distances.t;
     const int group = rays.group;
     plane_distances(plane_of(triangle.block, triangle.lane), packet, group, t);
     const int first = group * kWidth;
@@ -193,8 +199,9 @@ TRG_FN void test_closest(const CornerBlock& block, const RayPacket& packet, Pack
         for (int group = 0; group < kPacketGroups; ++group) {
             const GroupMasks rays = filter_rays<kOneOrigin>(edges, lane, packet, group);
             if (!rays.possible) continue;
-            alignas(32) float t[kWidth];
-            uint32_t met = meet_rays({block, lane}, rays, packet, search.t, t);
+            GroupDistances distances;
+            const float (&t)[kWidth] = distances.t;
+            uint32_t met = meet_rays({block, lane}, rays, packet, search.t, distances);
             for (; met; met &= met - 1) {
                 const int k = lowest_bit(met), ray = group * kWidth + k;
                 if (!improves(search.ray[ray], t[k], block.prim[lane])) continue;
@@ -222,8 +229,9 @@ TRG_FN void test_any(const CornerBlock& block, const RayPacket& packet, uint32_t
             GroupMasks rays = filter_rays<kOneOrigin>(edges, lane, packet, group);
             rays.possible &= ~(*hidden >> (group * kWidth)) & ((1u << kWidth) - 1);
             if (!rays.possible) continue;
-            alignas(32) float t[kWidth];
-            const uint32_t met = meet_rays({block, lane}, rays, packet, packet.t_max, t) &
+            GroupDistances distances;
+            const float (&t)[kWidth] = distances.t;
+            const uint32_t met = meet_rays({block, lane}, rays, packet, packet.t_max, distances) &
                                  mask_less(load8(t), load8(packet.t_max + group * kWidth));
             *hidden |= met << (group * kWidth);
         }

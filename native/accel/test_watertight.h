@@ -1,11 +1,11 @@
 /// Ray against eight triangles, without leaks at edges and vertices.
 ///
 /// A triangle is met when the exact edge functions D.(A x B) of its corners relative to the ray's
-/// origin agree in sign, or are zero. They are computed in double, and a bound of the rounding error
-/// counts as zero: so the triangle that a ray exactly meets is never missed, at an edge or at a corner
-/// where many meet. A float version in sheared space (Woop, Benthin, Wald 2013) goes first; its own
-/// bound leaves only the lanes near an edge to the doubles. The distance is that of the plane through
-/// the first corner, in double.
+/// origin agree in sign, or are zero. They are computed in double, and a bound of the rounding
+/// error counts as zero: so the triangle that a ray exactly meets is never missed, at an edge or at
+/// a corner where many meet. A float version in sheared space (Woop, Benthin, Wald 2013) goes
+/// first; its own bound leaves only the lanes near an edge to the doubles. The distance is that of
+/// the plane through the first corner, in double.
 #pragma once
 
 #include "accel/traced_ray.h"
@@ -27,8 +27,8 @@ TRG_FN ShearedCorner shear_corner(const float (&corner)[3][kWidth], const Traced
     const Float8 z = load8(corner[ray.kz]) - splat8(ray.origin[ray.kz]);
     const Float8 x = load8(corner[ray.kx]) - splat8(ray.origin[ray.kx]);
     const Float8 y = load8(corner[ray.ky]) - splat8(ray.origin[ray.ky]);
-    return {subtract_product(x, splat8(ray.shear_x), z), subtract_product(y, splat8(ray.shear_y), z),
-            z};
+    return {subtract_product(x, splat8(ray.shear_x), z),
+            subtract_product(y, splat8(ray.shear_y), z), z};
 }
 
 TRG_FN Float8 edge_function(const ShearedCorner& a, const ShearedCorner& b) {
@@ -41,8 +41,8 @@ TRG_FN LaneMasks filter_lanes(const CornerBlock& block, const TracedRay& ray) {
     const ShearedCorner c = shear_corner(block.corner[2], ray);
     const Float8 u = edge_function(b, c), v = edge_function(c, a), w = edge_function(a, b);
 
-    // |error| <= 2^-24 m (16 m + 24 r), m the largest |x|, |y| and r the largest |z| of the corners;
-    // the constant term keeps products that underflow on the safe side.
+    // |error| <= 2^-24 m (16 m + 24 r), m the largest |x|, |y| and r the largest |z| of the
+    // corners; the constant term keeps products that underflow on the safe side.
     const Float8 m = max_abs8(max_abs8(max_abs8(a.x, a.y), max_abs8(b.x, b.y)), max_abs8(c.x, c.y));
     const Float8 r = max_abs8(max_abs8(a.z, b.z), c.z);
     const Float8 bound = multiply_add(m * splat8(28 * 0x1p-24f), m + r, splat8(1e-36f));
@@ -79,7 +79,9 @@ TRG_FN EdgeFunctions edge_functions(const RelativeCorners& p, Vec3d direction) {
             dot(direction, cross(p.a, p.ab))};
 }
 
-TRG_FN double larger_of(double a, double b) { return a > b ? a : b; }
+TRG_FN double larger_of(double a, double b) {
+    return a > b ? a : b;
+}
 
 TRG_FN double largest_component(Vec3d v) {
     return larger_of(larger_of(std::fabs(v.x), std::fabs(v.y)), std::fabs(v.z));
@@ -106,8 +108,8 @@ TRG_FN double plane_distance(const CornerBlock& block, int lane, const ExactRay&
     return dot(n, p0 - ray.origin_d) / dot(n, ray.direction_d);
 }
 
-/// `t` no nearer and no farther than the corners: rays almost within the plane have no better answer.
-/// What rounding alone puts beyond them stays, so that no filter has a say in the distance.
+/// `t` no nearer and no farther than the corners: rays almost within the plane have no better
+/// answer. What rounding alone puts beyond them stays, so that no filter has a say in the distance.
 TRG_FN double within_corners(double t, const RelativeCorners& p, Vec3d direction) {
     const double scale = 1.0 / dot(direction, direction);
     const double a = dot(p.a, direction) * scale, b = dot(p.b, direction) * scale;
@@ -118,7 +120,8 @@ TRG_FN double within_corners(double t, const RelativeCorners& p, Vec3d direction
     return t < near - size ? near : t > far + size ? far : t;
 }
 
-/// Distance to a lane near whose edge the ray passes, `t` being its plane's; NaN when it is not met.
+/// Distance to a lane near whose edge the ray passes, `t` being its plane's; NaN when it is not
+/// met.
 TRG_RARE_FN float edge_distance(const CornerBlock& block, int lane, double t, const ExactRay& ray) {
     const RelativeCorners corners = relative_corners(block, lane, ray);
     if (!std::isfinite(t) || !is_inside(corners, ray.direction_d)) return NAN;
@@ -155,7 +158,9 @@ struct Barycentrics {
     float u, v;
 };
 
-TRG_FN float unit_range(double x) { return static_cast<float>(x < 0 ? 0 : x > 1 ? 1 : x); }
+TRG_FN float unit_range(double x) {
+    return static_cast<float>(x < 0 ? 0 : x > 1 ? 1 : x);
+}
 
 TRG_FN Barycentrics coordinates_of(const CornerBlock& block, int lane, const ExactRay& ray) {
     const EdgeFunctions e = edge_functions(relative_corners(block, lane, ray), ray.direction_d);

@@ -58,9 +58,12 @@ TRG_FN TracedRay enter_placement(const Placement& placement, const TracedRay& ra
 template <class Block>
 TRG_FN void search_placement(const Placement& placement, const TracedRay& ray, Search& search) {
     search.current = &placement;
-    if (placement.soup->shape != Shape::triangles) test_closest(placement, ray, search);
-    else if (placement.identity) search_soup<Block>(*placement.soup, ray, search);
-    else search_soup<Block>(*placement.soup, enter_placement(placement, ray), search);
+    if (placement.soup->shape != Shape::triangles)
+        test_closest(placement, ray, search);
+    else if (placement.identity)
+        search_soup<Block>(*placement.soup, ray, search);
+    else
+        search_soup<Block>(*placement.soup, enter_placement(placement, ray), search);
 }
 
 template <class Block>
@@ -96,7 +99,7 @@ struct ScaledRay {
 };
 
 TRG_FN ScaledRay scale_ray(Ray ray) {
-    if (!(ray.t_min > 0)) ray.t_min = 0;   // also -0, whose bits do not sort
+    if (!(ray.t_min > 0)) ray.t_min = 0;  // also -0, whose bits do not sort
     const Vec3 d = ray.direction;
     const float x = std::fabs(d.x), y = std::fabs(d.y), z = std::fabs(d.z);
     const float largest_xy = x > y ? x : y, largest = largest_xy > z ? largest_xy : z;
@@ -183,7 +186,8 @@ TRG_FN void finish_search(const Ray& ray, const Soup& soup, Search& search) {
 }
 
 /// Traces kPacketRays rays together; false, with nothing done, when they do not go together.
-TRG_FN bool closest_hits(const WorldIndex& index, PacketTrials& trials, const Ray* rays, Hit* hits) {
+TRG_FN bool closest_hits(const WorldIndex& index, PacketTrials& trials, const Ray* rays,
+                         Hit* hits) {
     RayPacket packet;
     const Soup& soup = *trials.soup;
     if (!make_packet(rays, reach_of(soup.bounds), packet)) return false;
@@ -247,6 +251,8 @@ void trace_any(const WorldIndex& index, const Ray* rays, uint8_t* hidden, int co
 
 }  // namespace
 
-Kernels trace_kernels() { return {trace_closest, trace_any}; }
+Kernels trace_kernels() {
+    return {trace_closest, trace_any};
+}
 
 }  // namespace trg::TRG_ISA

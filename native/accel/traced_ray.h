@@ -20,11 +20,11 @@ struct ExactRay {
 
 struct TracedRay : ExactRay {
     float origin[3], direction[3];
-    float inverse[3];         // 1 / direction
-    int sign[3];              // 1 where the direction is negative: the high plane is near
+    float inverse[3];  // 1 / direction
+    int sign[3];       // 1 where the direction is negative: the high plane is near
     float t_min;
-    int kx, ky, kz;           // kz: the axis along which the direction is longest
-    float shear_x, shear_y;   // direction[kx], direction[ky] over direction[kz]
+    int kx, ky, kz;          // kz: the axis along which the direction is longest
+    float shear_x, shear_y;  // direction[kx], direction[ky] over direction[kz]
 };
 
 TRG_FN TracedRay prepare_ray(Vec3 origin, Vec3 direction, float t_min) {
@@ -60,8 +60,8 @@ struct Search {
     int32_t prim;
     int32_t lane;
     const void* block;
-    const Placement* placement;   // of the best hit
-    const Placement* current;     // being searched
+    const Placement* placement;  // of the best hit
+    const Placement* current;    // being searched
 };
 
 TRG_FN Search start_search(float t_max) {

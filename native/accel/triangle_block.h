@@ -10,7 +10,7 @@ namespace trg {
 
 /// Corners as they are, for the watertight test. Missing triangles have NaN corners and prim -1.
 struct alignas(64) CornerBlock {
-    float corner[3][3][kWidth];   // corner, axis, lane
+    float corner[3][3][kWidth];  // corner, axis, lane
     int32_t prim[kWidth];
 };
 

@@ -12,11 +12,11 @@ struct PlaneDistances {
 };
 
 struct GridWalk {
-    double entry, exit;   // where the ray enters and leaves the grid's box
+    double entry, exit;  // where the ray enters and leaves the grid's box
     PlaneDistances planes[3];
     int cell[3];
-    int forward[3];       // 1, or -1 where the direction is negative
-    double next[3];       // distance to the next plane along each axis
+    int forward[3];  // 1, or -1 where the direction is negative
+    double next[3];  // distance to the next plane along each axis
 };
 
 TRG_FN double component(const Vec3d& v, int axis) {
@@ -64,7 +64,8 @@ TRG_FN bool walk_cells(const Grid& grid, const TracedRay& ray, const float* limi
     GridWalk walk;
     if (!enter_grid(grid, ray, *limit, &walk)) return false;
     for (;;) {
-        if (visit((int64_t{walk.cell[2]} * grid.size[1] + walk.cell[1]) * grid.size[0] + walk.cell[0]))
+        if (visit((int64_t{walk.cell[2]} * grid.size[1] + walk.cell[1]) * grid.size[0] +
+                  walk.cell[0]))
             return true;
         int axis = walk.next[0] < walk.next[1] ? 0 : 1;
         if (walk.next[2] < walk.next[axis]) axis = 2;
@@ -91,10 +92,11 @@ TRG_FN bool walk_level(const GridIndex& index, const Grid& grid, const TracedRay
 
 /// Calls `visit(block)` for the blocks that the ray comes by.
 template <class Visit>
-TRG_FN bool walk_grid(const GridIndex& index, const TracedRay& ray, const float* limit, Visit visit) {
+TRG_FN bool walk_grid(const GridIndex& index, const TracedRay& ray, const float* limit,
+                      Visit visit) {
     uint32_t last = ~0u;
     const auto visit_blocks = [&](const BlockRange& blocks) {
-        if (blocks.begin == last) return false;   // those of the cell before
+        if (blocks.begin == last) return false;  // those of the cell before
         for (uint32_t k = blocks.begin; k < blocks.end; ++k)
             if (visit(k)) return true;
         if (blocks.begin < blocks.end) last = blocks.begin;

@@ -24,7 +24,8 @@ TRG_FN float enter_box(const PairNode& node, const TracedRay& ray, float limit) 
 
 /// Calls `visit(leaf)` for the leaves that the ray meets before `*limit`, the nearer child first.
 template <class Visit>
-TRG_FN bool walk_pairs(const PairTree& tree, const TracedRay& ray, const float* limit, Visit visit) {
+TRG_FN bool walk_pairs(const PairTree& tree, const TracedRay& ray, const float* limit,
+                       Visit visit) {
     const PairNode* nodes = tree.nodes.data();
     uint32_t stack[kPairStack];
     float entries[kPairStack];

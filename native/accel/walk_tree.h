@@ -11,8 +11,8 @@ struct ChildHits {
     Float8 entry;
 };
 
-/// What one ray or a beam of rays means to planes: per axis the origin and the inverse direction that
-/// give the nearest and the farthest distance (of planes ahead).
+/// What one ray or a beam of rays means to planes: per axis the origin and the inverse direction
+/// that give the nearest and the farthest distance (of planes ahead).
 struct RayBounds {
     float near_origin[3], far_origin[3];
     float near_inverse[3], far_inverse[3];
@@ -109,7 +109,8 @@ struct NodeTest {
     }
 };
 
-/// Subtrees still to be visited, the next one last, with the distances at which the ray enters them.
+/// Subtrees still to be visited, the next one last, with the distances at which the ray enters
+/// them.
 struct WalkStack {
     NodeRef ref[kStackSize];
     float entry[kStackSize];
@@ -147,10 +148,12 @@ TRG_FN uint32_t least_of(__m256i keys) {
 /// distances, whose three lowest bits make room for the lane.
 TRG_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits, WalkStack& stack) {
     const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    const __m256i bits = _mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(hits.entry.v));
+    const __m256i bits =
+        _mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(hits.entry.v));
     const __m256i select = _mm256_sllv_epi32(_mm256_set1_epi32(static_cast<int>(hits.mask)),
                                              _mm256_sub_epi32(_mm256_set1_epi32(31), lanes));
-    const __m256i missed = _mm256_andnot_si256(_mm256_srai_epi32(select, 31), _mm256_set1_epi32(-1));
+    const __m256i missed =
+        _mm256_andnot_si256(_mm256_srai_epi32(select, 31), _mm256_set1_epi32(-1));
     const __m256i keys = _mm256_or_si256(_mm256_or_si256(bits, lanes), missed);
     const NodeRef nearest = node.child[least_of(keys) & 7];
 
@@ -211,9 +214,12 @@ TRG_FN bool walk_nodes(const Tree& tree, const RayBounds& ray, const float* limi
             const WideNode& node = nodes[ref];
             const ChildHits hits = test.meet(node, *limit);
             if (hits.mask) {
-                if (!(hits.mask & (hits.mask - 1))) ref = node.child[lowest_bit(hits.mask)];
-                else if (kSorted) ref = push_all_but_nearest(node, hits, stack);
-                else ref = push_all_but_one(node, hits, stack);
+                if (!(hits.mask & (hits.mask - 1)))
+                    ref = node.child[lowest_bit(hits.mask)];
+                else if (kSorted)
+                    ref = push_all_but_nearest(node, hits, stack);
+                else
+                    ref = push_all_but_one(node, hits, stack);
                 continue;
             }
         }

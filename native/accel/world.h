@@ -53,7 +53,7 @@ struct WorldIndex;
 struct World {
     AccelKind accel = AccelKind::automatic;
     TriangleTest triangle_test = TriangleTest::watertight;
-    Isa isa = detect_isa();   // what queries and kernels are compiled for
+    Isa isa = detect_isa();  // what queries and kernels are compiled for
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::shared_ptr<WorldIndex> index;
@@ -76,16 +76,17 @@ BuildStats build_world(World& world, int threads, double rays = 0);
 
 struct UpdateStats {
     double seconds = 0;
-    bool rebuilt = false;   // more than was asked for had to be built anew
-    double growth = 1;      // cost of the tree over what it was when it was built
+    bool rebuilt = false;  // more than was asked for had to be built anew
+    double growth = 1;     // cost of the tree over what it was when it was built
 };
 
 /// Gives instances `first` and on the given places and builds the top level anew. Needs a built
 /// world. Where one of them had been merged with others into one index, everything is built anew.
-UpdateStats move_instances(World& world, int first, const std::vector<Transform>& places, int threads);
+UpdateStats move_instances(World& world, int first, const std::vector<Transform>& places,
+                           int threads);
 
-/// Gives `mesh` as many vertices as it had and fits its index to them. Needs a built world. The index
-/// is built anew when its cost has grown by half, or when it has no tree.
+/// Gives `mesh` as many vertices as it had and fits its index to them. Needs a built world. The
+/// index is built anew when its cost has grown by half, or when it has no tree.
 UpdateStats move_vertices(World& world, int mesh, std::vector<Vec3> vertices, int threads);
 
 /// Fills `hits` with the nearest hit of each ray, ties by (t, instance, triangle). Needs a built

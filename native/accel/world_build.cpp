@@ -14,9 +14,12 @@ namespace {
 Kernels kernels_of([[maybe_unused]] Isa isa) {
 #if defined(TRG_HAS_X86_VARIANTS)
     switch (isa) {
-        case Isa::avx512: return avx512::trace_kernels();
-        case Isa::avx2: return avx2::trace_kernels();
-        default: break;
+        case Isa::avx512:
+            return avx512::trace_kernels();
+        case Isa::avx2:
+            return avx2::trace_kernels();
+        default:
+            break;
     }
 #endif
     return baseline::trace_kernels();
@@ -104,11 +107,14 @@ void build_soups(const World& world, const SoupSettings& settings, WorldIndex& i
     };
     index.soup_of_mesh.assign(world.meshes.size(), nullptr);
     Shares shares = share_instances(world);
-    if (shares.merged.size() > 1) index.merged = keep(build_merged_soup(world, shares.merged, settings));
-    else shares.placed.insert(shares.placed.end(), shares.merged.begin(), shares.merged.end());
+    if (shares.merged.size() > 1)
+        index.merged = keep(build_merged_soup(world, shares.merged, settings));
+    else
+        shares.placed.insert(shares.placed.end(), shares.merged.begin(), shares.merged.end());
     for (int32_t number : shares.placed) {
         Soup*& soup = index.soup_of_mesh[world.instances[number].mesh];
-        if (!soup) soup = keep(build_mesh_soup(world.meshes[world.instances[number].mesh], settings));
+        if (!soup)
+            soup = keep(build_mesh_soup(world.meshes[world.instances[number].mesh], settings));
     }
 }
 

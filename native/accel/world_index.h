@@ -9,20 +9,20 @@ namespace trg {
 /// A soup placed in the world.
 struct Placement {
     const Soup* soup;
-    int32_t instance;   // -1: a merged soup, whose items tell
+    int32_t instance;  // -1: a merged soup, whose items tell
     bool identity;
-    InverseMap into;    // from the world to the soup's space
+    InverseMap into;  // from the world to the soup's space
 };
 
 struct WorldIndex {
     TriangleTest triangle_test = TriangleTest::watertight;
     AccelKind accel = AccelKind::none;
     std::vector<std::unique_ptr<Soup>> soups;
-    std::vector<Soup*> soup_of_mesh;     // null: not placed, or merged
+    std::vector<Soup*> soup_of_mesh;  // null: not placed, or merged
     Soup* merged = nullptr;
-    std::vector<Placement> placements;   // in the order of the leaves of `top`
-    Tree top;                            // over placements; unused when there is only one
-    std::vector<Placement> unbounded;    // planes: no box holds them
+    std::vector<Placement> placements;  // in the order of the leaves of `top`
+    Tree top;                           // over placements; unused when there is only one
+    std::vector<Placement> unbounded;   // planes: no box holds them
     Kernels kernels{};
 };
 

@@ -41,8 +41,10 @@ UpdateStats move_instances(World& world, int first, const std::vector<Transform>
         stats.rebuilt = stats.rebuilt || is_merged(world, instance);
         instance = make_instance(instance.mesh, places[k]);
     }
-    if (stats.rebuilt) build_world(world, threads);
-    else place_soups(world, *world.index, threads);
+    if (stats.rebuilt)
+        build_world(world, threads);
+    else
+        place_soups(world, *world.index, threads);
     stats.seconds = seconds_since(start);
     return stats;
 }

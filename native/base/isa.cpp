@@ -37,15 +37,20 @@ Isa detect_isa() {
 
 #else
 
-Isa detect_isa() { return Isa::baseline; }
+Isa detect_isa() {
+    return Isa::baseline;
+}
 
 #endif
 
 const char* isa_name(Isa isa) {
     switch (isa) {
-        case Isa::avx2: return "avx2";
-        case Isa::avx512: return "avx512";
-        default: return "baseline";
+        case Isa::avx2:
+            return "avx2";
+        case Isa::avx512:
+            return "avx512";
+        default:
+            return "baseline";
     }
 }
 

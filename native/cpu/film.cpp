@@ -54,7 +54,8 @@ void Film::add(const Chunk& chunk, const PathResult* results) {
             continue;
         }
         const int64_t at = index_of(chunk.pixels[i / chunk.samples]);
-        const int replicate = static_cast<int>((chunk.first_sample + i % chunk.samples) % kReplicates);
+        const int replicate =
+            static_cast<int>((chunk.first_sample + i % chunk.samples) % kReplicates);
         double* sum = &sums_[(at * replicates_ + replicate) * 3];
         sum[0] += result.radiance.x;
         sum[1] += result.radiance.y;
@@ -102,7 +103,8 @@ void Film::read_normal(float* out) const {
 void Film::read_depth(float* out) const {
     for (int index = 0; index < tile_count_; ++index) {
         const std::lock_guard<std::mutex> hold(tiles_[index].lock);
-        for (const Pixel& pixel : tiles_[index].pixels) out[index_of(pixel)] = depth_[index_of(pixel)];
+        for (const Pixel& pixel : tiles_[index].pixels)
+            out[index_of(pixel)] = depth_[index_of(pixel)];
     }
 }
 

@@ -26,7 +26,7 @@ struct FilmPasses {
 struct Tile {
     std::vector<Pixel> pixels;
     uint32_t samples_done = 0;
-    std::atomic<uint32_t> samples_published{0};   // samples_done, to be read without the lock
+    std::atomic<uint32_t> samples_published{0};  // samples_done, to be read without the lock
     std::mutex lock;
 };
 

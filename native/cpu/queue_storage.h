@@ -23,8 +23,8 @@ class QueueStorage {
 
     PathQueues view() {
         const int32_t capacity = static_cast<int32_t>(rays_.size());
-        return {capacity,         rays_.data(),        hits_.data(),    states_.data(), keys_.data(),
-                results_.data(),  shadow_rays_.data(), shadows_.data(), hidden_.data()};
+        return {capacity,        rays_.data(),        hits_.data(),    states_.data(), keys_.data(),
+                results_.data(), shadow_rays_.data(), shadows_.data(), hidden_.data()};
     }
     float* depth() { return depth_.data(); }
 

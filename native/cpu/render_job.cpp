@@ -46,11 +46,12 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
       work_count_(count_passes(request.samples) * film_.tile_count()),
       start_(Clock::now()),
       end_(start_) {
-    const int threads = static_cast<int>(
-        std::min<int64_t>(resolve_threads(request.threads), film_.tile_count()));
+    const int threads =
+        static_cast<int>(std::min<int64_t>(resolve_threads(request.threads), film_.tile_count()));
     const EmitterView& emitters = view_.scene.emitters;
     const int32_t lights = emitters.always_count + (emitters.pool_count > 0 ? 1 : 0);
-    for (int k = 0; k < threads; ++k) storages_.emplace_back(film_.tile_pixels() * kSamplesPerPass, lights);
+    for (int k = 0; k < threads; ++k)
+        storages_.emplace_back(film_.tile_pixels() * kSamplesPerPass, lights);
     running_ = threads;
     try {
         for (int k = 0; k < threads; ++k)
@@ -104,8 +105,7 @@ bool RenderJob::render_work(const Work& work, QueueStorage& storage, RayCounts* 
     const int32_t pixel_count = static_cast<int32_t>(tile.pixels.size());
     const Chunk chunk{tile.pixels.data(), pixel_count, work.first_sample, work.samples};
     const bool with_depth = request_.passes.depth && work.first_sample == 0;
-    if (with_depth)
-        render_depth(view_, chunk.pixels, pixel_count, queues, storage.depth());
+    if (with_depth) render_depth(view_, chunk.pixels, pixel_count, queues, storage.depth());
     if (!kernels_.render_chunk(view_, chunk, queues, cancelled_, counts)) return false;
     {
         const std::lock_guard<std::mutex> hold(tile.lock);
@@ -132,7 +132,9 @@ void RenderJob::finish_thread() {
     ended_.notify_all();
 }
 
-void RenderJob::cancel() { cancelled_.store(true, std::memory_order_relaxed); }
+void RenderJob::cancel() {
+    cancelled_.store(true, std::memory_order_relaxed);
+}
 
 RenderProgress RenderJob::wait(double timeout_s) {
     std::unique_lock<std::mutex> hold(lock_);

@@ -14,17 +14,17 @@ namespace trg {
 
 struct RenderRequest {
     int32_t width, height;
-    PixelRect rect;          // the part to render
+    PixelRect rect;  // the part to render
     int64_t samples;
     uint32_t seed;
     int32_t max_bounces;
-    int threads;             // 0: all cores
+    int threads;  // 0: all cores
     FilmPasses passes;
 };
 
 struct RenderProgress {
     bool done, cancelled;
-    int64_t samples;         // a pixel, rounded down over the picture
+    int64_t samples;  // a pixel, rounded down over the picture
     int64_t target;
     double seconds;
     RayCounts rays;
@@ -75,7 +75,7 @@ class RenderJob {
     Clock::time_point start_;
     Clock::time_point end_;
     int running_ = 0;
-    mutable std::mutex lock_;   // guards running_ and end_
+    mutable std::mutex lock_;  // guards running_ and end_
     std::condition_variable ended_;
     std::vector<QueueStorage> storages_;
     std::vector<std::thread> threads_;

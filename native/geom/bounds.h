@@ -11,8 +11,12 @@ struct Bounds {
     Vec3 lo, hi;
 };
 
-TRG_FN float min_of(float a, float b) { return a < b ? a : b; }
-TRG_FN float max_of(float a, float b) { return a > b ? a : b; }
+TRG_FN float min_of(float a, float b) {
+    return a < b ? a : b;
+}
+TRG_FN float max_of(float a, float b) {
+    return a > b ? a : b;
+}
 
 /// The box of nothing: growing it by a point gives that point.
 TRG_FN Bounds empty_bounds() {
@@ -25,9 +29,13 @@ TRG_FN Bounds united(const Bounds& a, const Bounds& b) {
             {max_of(a.hi.x, b.hi.x), max_of(a.hi.y, b.hi.y), max_of(a.hi.z, b.hi.z)}};
 }
 
-TRG_FN Bounds united(const Bounds& a, Vec3 p) { return united(a, Bounds{p, p}); }
+TRG_FN Bounds united(const Bounds& a, Vec3 p) {
+    return united(a, Bounds{p, p});
+}
 
-TRG_FN bool is_empty(const Bounds& a) { return !(a.lo.x <= a.hi.x); }
+TRG_FN bool is_empty(const Bounds& a) {
+    return !(a.lo.x <= a.hi.x);
+}
 
 /// Half the surface of the box, in double so that no finite box overflows; 0 for the empty one.
 TRG_FN double half_area(const Bounds& a) {

@@ -8,8 +8,8 @@
 
 namespace trg {
 
-/// Points origin + t direction with t_min < t < t_max; a t_min below 0 counts as 0. `direction` need
-/// not be unit.
+/// Points origin + t direction with t_min < t < t_max; a t_min below 0 counts as 0. `direction`
+/// need not be unit.
 struct Ray {
     Vec3 origin;
     float t_min;
@@ -23,7 +23,9 @@ struct Hit {
     int32_t triangle, instance;
 };
 
-TRG_FN Hit no_hit() { return {std::numeric_limits<float>::infinity(), 0.0f, 0.0f, -1, -1}; }
+TRG_FN Hit no_hit() {
+    return {std::numeric_limits<float>::infinity(), 0.0f, 0.0f, -1, -1};
+}
 
 /// False when a number is not finite (an infinite t_max is allowed) or the direction is null:
 /// such rays hit nothing.
@@ -31,8 +33,7 @@ TRG_FN bool is_traceable(const Ray& ray) {
     // Zero times a number is zero unless the number is infinite or NaN.
     const Vec3 o = ray.origin * 0.0f, d = ray.direction * 0.0f;
     const float zero = ((o.x + o.y) + (o.z + d.x)) + ((d.y + d.z) + ray.t_min * 0.0f);
-    const bool directed =
-        (ray.direction.x != 0) | (ray.direction.y != 0) | (ray.direction.z != 0);
+    const bool directed = (ray.direction.x != 0) | (ray.direction.y != 0) | (ray.direction.z != 0);
     return (zero == 0) & directed & (ray.t_max > ray.t_min);
 }
 

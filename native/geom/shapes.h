@@ -8,7 +8,7 @@ namespace trg {
 constexpr double kTwoPi = 6.283185307179586476925;
 
 struct Roots {
-    double near, far;   // near <= far; NaN when there are none
+    double near, far;  // near <= far; NaN when there are none
 };
 
 /// A root of |o + t d| = 1 made exact by one step of Newton's method.
@@ -32,7 +32,9 @@ TRG_FN Roots meet_sphere(Vec3d o, Vec3d d) {
 }
 
 /// Where o + t d meets z = 0; infinite or NaN when it runs along it.
-TRG_FN double meet_plane(Vec3d o, Vec3d d) { return -o.z / d.z; }
+TRG_FN double meet_plane(Vec3d o, Vec3d d) {
+    return -o.z / d.z;
+}
 
 struct ShapeCoordinates {
     double u, v;
@@ -55,7 +57,8 @@ TRG_FN Vec3d even_sphere_point(double a, double b) {
 /// How much thinner than over an unstretched sphere of the same volume such points lie, by area,
 /// where the sphere placed by `placed` has the (not unit) normal `n`, its inverse transpose's.
 TRG_FN float sphere_density(const Transform& placed, Vec3d n) {
-    return static_cast<float>(1.0 / (std::cbrt(std::fabs(determinant(placed))) * std::sqrt(dot(n, n))));
+    return static_cast<float>(1.0 /
+                              (std::cbrt(std::fabs(determinant(placed))) * std::sqrt(dot(n, n))));
 }
 
 }  // namespace trg

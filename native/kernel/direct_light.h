@@ -10,8 +10,8 @@ namespace trg {
 /// Where a path scatters, ready for light and for the next direction.
 struct Vertex {
     Surface surface;
-    Vec3 ng;           // geometric normal on the viewer's side
-    Frame frame;       // around the shading normal on the viewer's side
+    Vec3 ng;      // geometric normal on the viewer's side
+    Frame frame;  // around the shading normal on the viewer's side
     Bsdf bsdf;
     Vec3 throughput;
     SampleKey key;
@@ -59,8 +59,7 @@ TRG_FN void add_light_sample(const Light& emitter, const Vertex& v, float share,
                              ShadowQueue* queue) {
     LightSample sample;
     if (!sample_light(emitter, v.surface.position, uv, &sample)) return;
-    const BsdfValue f =
-        eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, sample.wi));
+    const BsdfValue f = eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, sample.wi));
     const float weight =
         sample.pdf > 0.0f ? power_heuristic(share * sample.pdf, f.pdf) / share : 1.0f / share;
     const Vec3 light = v.throughput * f.f_cos * sample.light * weight;
@@ -73,10 +72,11 @@ TRG_FN void add_light_sample(const Light& emitter, const Vertex& v, float share,
 
 /// Queues what a random point of the emissive triangles sends to `v`.
 template <uint32_t F>
-TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v, uint32_t choice, Sample2 uv,
-                                ShadowQueue* queue) {
+TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v, uint32_t choice,
+                                Sample2 uv, ShadowQueue* queue) {
     const EmitterView& e = scene.emitters;
-    const EmissiveTriangle& at = e.triangles[find_share(e.triangle_limits, e.triangle_count, choice)];
+    const EmissiveTriangle& at =
+        e.triangles[find_share(e.triangle_limits, e.triangle_count, choice)];
     const Surface s = sample_emitter<F>(scene, at, uv.u, uv.v);
     const Material& m = scene.materials[s.material];
     const bool in_front = dot(s.outside, v.surface.position - s.position) > 0.0f;
@@ -112,7 +112,8 @@ TRG_FN void add_light_samples(const SceneView& scene, const Vertex& v, ShadowQue
     if (e.pool[entry] >= 0) {
         add_light_sample<F>(scene.lights[e.pool[entry]], v, e.pool_shares[entry], uv, queue);
     } else {
-        if constexpr (has(F, kExtendedEmitters)) add_triangle_sample<F>(scene, v, choice[1], uv, queue);
+        if constexpr (has(F, kExtendedEmitters))
+            add_triangle_sample<F>(scene, v, choice[1], uv, queue);
     }
 }
 

@@ -11,9 +11,12 @@ namespace {
 const KernelSet* sets_of([[maybe_unused]] Isa isa, int* count) {
 #if defined(TRG_HAS_X86_VARIANTS)
     switch (isa) {
-        case Isa::avx512: return avx512::kernel_sets(count);
-        case Isa::avx2: return avx2::kernel_sets(count);
-        default: break;
+        case Isa::avx512:
+            return avx512::kernel_sets(count);
+        case Isa::avx2:
+            return avx2::kernel_sets(count);
+        default:
+            break;
     }
 #endif
     return baseline::kernel_sets(count);
@@ -29,7 +32,9 @@ const KernelSet& choose_kernel_set(uint32_t features, Isa isa) {
     return sets[count - 1];
 }
 
-const char* kernel_set_names() { return "plain lamps textured full"; }
+const char* kernel_set_names() {
+    return "plain lamps textured full";
+}
 
 void render_depth(const RenderView& view, const Pixel* pixels, int32_t count, PathQueues& queues,
                   float* depth) {
@@ -37,7 +42,8 @@ void render_depth(const RenderView& view, const Pixel* pixels, int32_t count, Pa
         queues.rays[i] = make_camera_ray(view, static_cast<float>(pixels[i].x) + 0.5f,
                                          static_cast<float>(pixels[i].y) + 0.5f);
     intersect_closest(*view.scene.world, queues.rays, queues.hits, count);
-    for (int32_t i = 0; i < count; ++i) depth[i] = queues.hits[i].triangle < 0 ? 1e10f : queues.hits[i].t;
+    for (int32_t i = 0; i < count; ++i)
+        depth[i] = queues.hits[i].triangle < 0 ? 1e10f : queues.hits[i].t;
 }
 
 }  // namespace trg

@@ -9,14 +9,14 @@ namespace trg {
 /// What a path carries from one surface to the next.
 struct PathState {
     Vec3 throughput;
-    float pdf;        // of the ray's direction, by solid angle; 0 after a delta or from the camera
+    float pdf;  // of the ray's direction, by solid angle; 0 after a delta or from the camera
     int32_t path;
 };
 
 /// What a path leaves behind.
 struct PathResult {
     Vec3 radiance;
-    Vec3 normal;      // of the first surface, turned to the viewer; null for a miss
+    Vec3 normal;  // of the first surface, turned to the viewer; null for a miss
     bool hit;
 };
 
@@ -32,8 +32,8 @@ struct PathQueues {
     Ray* rays;
     Hit* hits;
     PathState* states;
-    SampleKey* keys;         // by path
-    PathResult* results;     // by path
+    SampleKey* keys;      // by path
+    PathResult* results;  // by path
     Ray* shadow_rays;
     ShadowState* shadows;
     uint8_t* hidden;
@@ -54,7 +54,7 @@ struct Chunk {
 /// What holds for a whole render.
 struct RenderView {
     SceneView scene;
-    int32_t width, height;   // of the whole picture
+    int32_t width, height;  // of the whole picture
     uint32_t seed;
     int32_t max_bounces;
 };
@@ -68,10 +68,10 @@ enum Dimension : uint32_t {
     kPixelDimension = 0,
     kFirstBounceDimension = 1,
     kDirection = 0,
-    kLobe = 1,               // lobe and roulette
+    kLobe = 1,  // lobe and roulette
     kPoolPoint = 2,
     kPoolChoice = 3,
-    kAlwaysLight = 4,        // and the three after it
+    kAlwaysLight = 4,  // and the three after it
     kDimensionsPerBounce = 8,
 };
 constexpr int kMostAlwaysLights = 4;

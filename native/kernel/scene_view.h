@@ -12,18 +12,20 @@ enum Feature : uint32_t {
     kTextures = 1,
     kSmoothNormals = 2,
     kTransmission = 4,
-    kExtendedEmitters = 8,   // lights with extent, and surfaces that emit
+    kExtendedEmitters = 8,  // lights with extent, and surfaces that emit
 };
 
-TRG_FN constexpr bool has(uint32_t features, Feature feature) { return (features & feature) != 0; }
+TRG_FN constexpr bool has(uint32_t features, Feature feature) {
+    return (features & feature) != 0;
+}
 
 struct MeshView {
     const Vec3* vertices;
     const Triangle* triangles;
-    const float* normals;    // 9 a triangle, or null
-    const float* uvs;        // 6 a triangle, or null
-    const int32_t* slots;    // 1 a triangle, or null
-    Shape shape;             // none of these where it is not triangles
+    const float* normals;  // 9 a triangle, or null
+    const float* uvs;      // 6 a triangle, or null
+    const int32_t* slots;  // 1 a triangle, or null
+    Shape shape;           // none of these where it is not triangles
 };
 
 /// Or triangle 0 of a sphere, which is the sphere.
@@ -33,9 +35,9 @@ struct EmissiveTriangle {
 
 /// Who is sampled for direct light. Thresholds are cumulative shares of 2^32, the last one open.
 struct EmitterView {
-    const int32_t* always;         // lights that get a sample at every point
+    const int32_t* always;  // lights that get a sample at every point
     int32_t always_count;
-    const int32_t* pool;           // lights that share one sample; -1: the emissive triangles
+    const int32_t* pool;  // lights that share one sample; -1: the emissive triangles
     const uint32_t* pool_limits;
     const float* pool_shares;
     int32_t pool_count;
@@ -45,7 +47,7 @@ struct EmitterView {
     const EmissiveTriangle* triangles;
     const uint32_t* triangle_limits;
     int32_t triangle_count;
-    float triangle_density;        // chance, by area and per unit of emission_weight, of a point
+    float triangle_density;  // chance, by area and per unit of emission_weight, of a point
 };
 
 struct CameraView {
@@ -59,9 +61,9 @@ struct SceneView {
     const World* world;
     const MeshView* meshes;
     const Instance* instances;
-    const int32_t* slot_materials;   // of all instances in a row
-    const int64_t* first_slot;       // one an instance
-    const int32_t* slot_count;       // one an instance; 0: material 0
+    const int32_t* slot_materials;  // of all instances in a row
+    const int64_t* first_slot;      // one an instance
+    const int32_t* slot_count;      // one an instance; 0: material 0
     const Material* materials;
     TextureSet textures;
     const Light* lights;

@@ -13,7 +13,7 @@ constexpr int32_t kFirstRoulette = 2;
 struct ShadeStage {
     const RenderView& view;
     PathQueues& queues;
-    int32_t depth;        // surface number, 0 for the one that the camera sees
+    int32_t depth;  // surface number, 0 for the one that the camera sees
     ShadowQueue shadows;
     int32_t next_count;
 };
@@ -114,9 +114,9 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
     if constexpr (has(F, kExtendedEmitters))
         if (stage.depth > 0 && scene.emitters.extended_count > 0)
             result.radiance =
-                result.radiance +
-                state.throughput *
-                    gather_lights(scene, ray, hit.triangle >= 0 ? hit.t : kFar, state.pdf);
+                result.radiance + state.throughput * gather_lights(scene, ray,
+                                                                   hit.triangle >= 0 ? hit.t : kFar,
+                                                                   state.pdf);
     if (hit.triangle < 0) {
         result.radiance = result.radiance + state.throughput * scene.background;
         return;
@@ -126,9 +126,9 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
     v.surface = surface_of_hit<F>(scene, ray, hit);
     if constexpr (has(F, kExtendedEmitters))
         if (scene.materials[v.surface.material].emission_weight > 0.0f)
-            result.radiance = result.radiance +
-                              state.throughput *
-                                  emission_seen<F>(scene, v.surface, ray, hit.t, state.pdf);
+            result.radiance =
+                result.radiance +
+                state.throughput * emission_seen<F>(scene, v.surface, ray, hit.t, state.pdf);
     if (stage.depth > stage.view.max_bounces) return;
     Vec3 normal;
     const bool scatters = make_vertex<F>(scene, hit, -normalize(ray.direction), &v, &normal);

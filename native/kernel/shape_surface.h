@@ -7,8 +7,8 @@
 namespace trg {
 
 struct ShapePoint {
-    Vec3d local;   // on the shape, in its own space
-    float u, v;    // coordinates on it
+    Vec3d local;  // on the shape, in its own space
+    float u, v;   // coordinates on it
 };
 
 TRG_FN Vec3d shape_normal(Shape shape, Vec3d local) {
@@ -69,8 +69,10 @@ TRG_FN ShapePoint met_point(const SceneView& scene, const Ray& ray, const Hit& h
     const Vec3d o = point_into(map, to_double(ray.origin));
     const Vec3d d = vector_into(map, to_double(ray.direction));
     Vec3d p = o + d * hit.t;
-    if (scene.meshes[instance.mesh].shape == Shape::plane) p.z = 0.0;
-    else p = p * (1.0 / std::sqrt(dot(p, p)));
+    if (scene.meshes[instance.mesh].shape == Shape::plane)
+        p.z = 0.0;
+    else
+        p = p * (1.0 / std::sqrt(dot(p, p)));
     return {p, hit.u, hit.v};
 }
 
@@ -84,7 +86,8 @@ TRG_FN Surface surface_of_hit(const SceneView& scene, const Ray& ray, const Hit&
 
 /// An even point of an emissive triangle or unit sphere, from two even numbers.
 template <uint32_t F>
-TRG_FN Surface sample_emitter(const SceneView& scene, const EmissiveTriangle& at, float a, float b) {
+TRG_FN Surface sample_emitter(const SceneView& scene, const EmissiveTriangle& at, float a,
+                              float b) {
     if (scene.meshes[scene.instances[at.instance].mesh].shape == Shape::triangles) {
         const float root = std::sqrt(a);
         return make_surface<F>(scene, at, root * (1.0f - b), root * b);

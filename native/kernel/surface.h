@@ -7,10 +7,10 @@ namespace trg {
 
 struct Surface {
     Vec3 position;
-    Vec3 outside;      // unit geometric normal on the outer side
-    float error;       // how far along the normal the true surface may be
-    float u, v;        // texture coordinates
-    float sampling;    // chance of sampling this point for its light, against an even choice by area
+    Vec3 outside;    // unit geometric normal on the outer side
+    float error;     // how far along the normal the true surface may be
+    float u, v;      // texture coordinates
+    float sampling;  // chance of sampling this point for its light, against an even choice by area
     int32_t material;
 };
 
@@ -28,7 +28,7 @@ TRG_FN Corners triangle_corners(const MeshView& mesh, int32_t triangle) {
 /// triangle as rays see it: rounding of the point, of the map to the world, and of rays taken into
 /// the object's space (after Waechter and Binder 2019 and NVIDIA's self-intersection bounds).
 TRG_FN float offset_bound(const Instance& instance, const Corners& c, Vec3 position, Vec3 n) {
-    constexpr float kEps = 2.4e-7f;   // four half-ulps
+    constexpr float kEps = 2.4e-7f;  // four half-ulps
     const Vec3 size = absolute(c.p0) + absolute(c.e1) + absolute(c.e2);
     Vec3 error = absolute(position) + size;
     if (!instance.identity) {
@@ -80,7 +80,8 @@ TRG_FN void prefetch_corners(const SceneView& scene, const Hit& hit) {
 
 /// The point with barycentrics (b1, b2). The normal is null where the triangle has no usable one.
 template <uint32_t F>
-TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, float b1, float b2) {
+TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, float b1,
+                            float b2) {
     const Instance& instance = scene.instances[at.instance];
     const MeshView& mesh = scene.meshes[instance.mesh];
     const Corners c = triangle_corners(mesh, at.triangle);
@@ -124,6 +125,8 @@ TRG_FN Vec3 smooth_normal(const SceneView& scene, const Hit& hit) {
 }
 
 /// `position` moved off the surface to the side of `n` by its error.
-TRG_FN Vec3 leave_surface(const Surface& s, Vec3 n) { return s.position + n * s.error; }
+TRG_FN Vec3 leave_surface(const Surface& s, Vec3 n) {
+    return s.position + n * s.error;
+}
 
 }  // namespace trg

@@ -82,8 +82,7 @@ void Buffer::check_shape(const char* name, std::initializer_list<int64_t> shape)
     }
     if (fits) return;
     std::string given = "(";
-    for (int k = 0; k < view_.ndim; ++k)
-        given += (k ? ", " : "") + std::to_string(view_.shape[k]);
+    for (int k = 0; k < view_.ndim; ++k) given += (k ? ", " : "") + std::to_string(view_.shape[k]);
     throw ArgumentError(std::string(name) + ": expected shape " + shape_text(shape) + ", got " +
                         given + (view_.ndim == 1 ? ",)" : ")"));
 }

@@ -62,8 +62,8 @@ class Buffer {
     Py_buffer view_{};
 };
 
-/// True when `object` offers a buffer of `kind` ('f', 'i', 'u') items of `size` bytes: for arguments
-/// that take more than one type.
+/// True when `object` offers a buffer of `kind` ('f', 'i', 'u') items of `size` bytes: for
+/// arguments that take more than one type.
 bool has_item_type(PyObject* object, char kind, size_t size);
 
 /// An optional array: absent when `object` is null or None.

@@ -11,12 +11,13 @@ namespace trg::py {
 namespace {
 
 struct JobObject {
-    PyObject_HEAD
-    SceneUse* use;
+    PyObject_HEAD SceneUse* use;
     RenderJob* job;
 };
 
-RenderJob& job_of(PyObject* self) { return *reinterpret_cast<JobObject*>(self)->job; }
+RenderJob& job_of(PyObject* self) {
+    return *reinterpret_cast<JobObject*>(self)->job;
+}
 
 /// A running job is cancelled and joined while other Python threads run.
 void free_job(PyObject* self) {
@@ -31,7 +32,9 @@ void free_job(PyObject* self) {
     Py_DECREF(type);
 }
 
-PyObject* as_bool(bool value) { return value ? Py_True : Py_False; }
+PyObject* as_bool(bool value) {
+    return value ? Py_True : Py_False;
+}
 
 PyObject* poll_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
@@ -47,10 +50,10 @@ PyObject* poll_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         }
         return checked(Py_BuildValue(
             "{s:O, s:O, s:L, s:L, s:d, s:L, s:L, s:L, s:L, s:s}", "done", as_bool(state.done),
-            "cancelled", as_bool(state.cancelled), "samples",
-            static_cast<long long>(state.samples), "target", static_cast<long long>(state.target),
-            "seconds", state.seconds, "rays_camera", static_cast<long long>(state.rays.camera),
-            "rays_shadow", static_cast<long long>(state.rays.shadow), "rays_bounce",
+            "cancelled", as_bool(state.cancelled), "samples", static_cast<long long>(state.samples),
+            "target", static_cast<long long>(state.target), "seconds", state.seconds, "rays_camera",
+            static_cast<long long>(state.rays.camera), "rays_shadow",
+            static_cast<long long>(state.rays.shadow), "rays_bounce",
             static_cast<long long>(state.rays.bounce), "rejected_samples",
             static_cast<long long>(state.rejected_samples), "kernel_set",
             job_of(self).kernel_set()));
@@ -67,7 +70,8 @@ PyObject* cancel_method(PyObject* self, PyObject*) {
 PyObject* combined_method(PyObject* self, PyObject* out) {
     return guarded_object([&] {
         const Film& film = job_of(self).film();
-        Buffer pixels = Buffer::of<float>(out, "out", {film.height(), film.width(), 4}, Access::write);
+        Buffer pixels =
+            Buffer::of<float>(out, "out", {film.height(), film.width(), 4}, Access::write);
         const WithoutGil unlocked;
         film.read_combined(pixels.mutable_data<float>());
         return none();
@@ -89,7 +93,8 @@ PyObject* normal_method(PyObject* self, PyObject* out) {
     return guarded_object([&] {
         const Film& film = job_of(self).film();
         if (!film.passes().normal) throw StateError("the render was not asked for normals");
-        Buffer pixels = Buffer::of<float>(out, "out", {film.height(), film.width(), 3}, Access::write);
+        Buffer pixels =
+            Buffer::of<float>(out, "out", {film.height(), film.width(), 3}, Access::write);
         const WithoutGil unlocked;
         film.read_normal(pixels.mutable_data<float>());
         return none();

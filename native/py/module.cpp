@@ -29,8 +29,9 @@ constexpr const char* kCompiledSets = "baseline";
 PyObject* info(PyObject*, PyObject*) {
     return guarded_object([] {
         return checked(Py_BuildValue("{s:s, s:s, s:s, s:s, s:i}", "compiler", kCompiler,
-                                     "instruction_set", isa_name(detect_isa()),
-                                     "compiled_sets", kCompiledSets, "kernel_sets", kernel_set_names(), "cores", resolve_threads(0)));
+                                     "instruction_set", isa_name(detect_isa()), "compiled_sets",
+                                     kCompiledSets, "kernel_sets", kernel_set_names(), "cores",
+                                     resolve_threads(0)));
     });
 }
 
@@ -52,11 +53,20 @@ int execute_module(PyObject* module) {
 PyModuleDef_Slot kModuleSlots[] = {{Py_mod_exec, reinterpret_cast<void*>(execute_module)},
                                    {0, nullptr}};
 
-PyModuleDef kModule = {PyModuleDef_HEAD_INIT, "trg_native", "The native core of TRG for Blender.",
-                       0, kModuleMethods, kModuleSlots, nullptr, nullptr, nullptr};
+PyModuleDef kModule = {PyModuleDef_HEAD_INIT,
+                       "trg_native",
+                       "The native core of TRG for Blender.",
+                       0,
+                       kModuleMethods,
+                       kModuleSlots,
+                       nullptr,
+                       nullptr,
+                       nullptr};
 
 }  // namespace
 
 }  // namespace trg::py
 
-PyMODINIT_FUNC PyInit_trg_native() { return PyModuleDef_Init(&trg::py::kModule); }
+PyMODINIT_FUNC PyInit_trg_native() {
+    return PyModuleDef_Init(&trg::py::kModule);
+}

@@ -85,7 +85,9 @@ PyObject* guarded_object(Body body) noexcept {
     return guarded(static_cast<PyObject*>(nullptr), [&] { return body().release(); });
 }
 
-inline PyRef none() { return PyRef(Py_NewRef(Py_None)); }
+inline PyRef none() {
+    return PyRef(Py_NewRef(Py_None));
+}
 
 /// Parses arguments by PyArg_ParseTupleAndKeywords; `names` ends with nullptr.
 template <class... Targets>

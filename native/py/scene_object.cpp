@@ -10,7 +10,9 @@ namespace trg::py {
 
 namespace {
 
-SceneObject* as_scene(PyObject* self) { return reinterpret_cast<SceneObject*>(self); }
+SceneObject* as_scene(PyObject* self) {
+    return reinterpret_cast<SceneObject*>(self);
+}
 
 AccelKind parse_accel(const char* name) {
     if (std::strcmp(name, "auto") == 0) return AccelKind::automatic;
@@ -68,15 +70,17 @@ void free_scene(PyObject* self) {
 
 void add_methods(PyObject* type, PyMethodDef* methods) {
     for (PyMethodDef* method = methods; method->ml_name; ++method) {
-        PyRef descriptor = checked(PyDescr_NewMethod(reinterpret_cast<PyTypeObject*>(type), method));
+        PyRef descriptor =
+            checked(PyDescr_NewMethod(reinterpret_cast<PyTypeObject*>(type), method));
         if (PyObject_SetAttrString(type, method->ml_name, descriptor.get()) != 0)
             throw PythonError{};
     }
 }
 
 PyType_Slot kSceneSlots[] = {
-    {Py_tp_doc, const_cast<char*>("Scene(accel='auto', triangle_test='watertight', instruction_set='auto')\n\n"
-                                  "Geometry, its index and the tables of shading.")},
+    {Py_tp_doc,
+     const_cast<char*>("Scene(accel='auto', triangle_test='watertight', instruction_set='auto')\n\n"
+                       "Geometry, its index and the tables of shading.")},
     {Py_tp_new, reinterpret_cast<void*>(new_scene)},
     {Py_tp_dealloc, reinterpret_cast<void*>(free_scene)},
     {0, nullptr}};
@@ -104,9 +108,13 @@ SceneUse::~SceneUse() {
     Py_DECREF(reinterpret_cast<PyObject*>(object_));
 }
 
-SceneChange::SceneChange(PyObject* self) : object_(as_scene(self)) { object_->changing = true; }
+SceneChange::SceneChange(PyObject* self) : object_(as_scene(self)) {
+    object_->changing = true;
+}
 
-SceneChange::~SceneChange() { object_->changing = false; }
+SceneChange::~SceneChange() {
+    object_->changing = false;
+}
 
 void add_scene_type(PyObject* module) {
     PyRef type = checked(PyType_FromModuleAndSpec(module, &kSceneSpec, nullptr));

@@ -7,10 +7,9 @@
 namespace trg::py {
 
 struct SceneObject {
-    PyObject_HEAD
-    Scene* scene;
-    int users;       // queries and jobs that are reading the scene; changed under the GIL
-    bool changing;   // a build runs without the GIL
+    PyObject_HEAD Scene* scene;
+    int users;      // queries and jobs that are reading the scene; changed under the GIL
+    bool changing;  // a build runs without the GIL
 };
 
 /// Methods of Scene that belong to rendering (scene_render_methods.cpp); ends with a null name.

@@ -62,7 +62,8 @@ void scatter_hits(const Hit* hits, int64_t begin, int count, HitArrays& arrays) 
     }
 }
 
-/// Calls `trace(begin, count)` for chunks of at most kChunk rays, over all threads, without the GIL.
+/// Calls `trace(begin, count)` for chunks of at most kChunk rays, over all threads, without the
+/// GIL.
 template <class Trace>
 void for_each_chunk(int64_t ray_count, int threads, Trace trace) {
     const WithoutGil unlocked;
@@ -76,7 +77,7 @@ PyObject* intersect_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         PyObject *in[4], *out[5];
         int threads = 0;
-        const char* const names[] = {"origins", "directions", "tmin",     "tmax", "t",      "u",
+        const char* const names[] = {"origins", "directions", "tmin",     "tmax",    "t",    "u",
                                      "v",       "triangle",   "instance", "threads", nullptr};
         parse_arguments(args, kwargs, "OOOOOOOOO|i", names, &in[0], &in[1], &in[2], &in[3], &out[0],
                         &out[1], &out[2], &out[3], &out[4], &threads);
@@ -98,8 +99,8 @@ PyObject* occluded_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         PyObject *in[4], *out;
         int threads = 0;
-        const char* const names[] = {"origins", "directions", "tmin",
-                                     "tmax",    "out",        "threads", nullptr};
+        const char* const names[] = {"origins", "directions", "tmin", "tmax",
+                                     "out",     "threads",    nullptr};
         parse_arguments(args, kwargs, "OOOOO|i", names, &in[0], &in[1], &in[2], &in[3], &out,
                         &threads);
         const SceneUse use(self);

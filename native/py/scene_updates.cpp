@@ -60,8 +60,8 @@ PyObject* update_vertices_method(PyObject* self, PyObject* args, PyObject* kwarg
             throw ArgumentError("mesh: index " + std::to_string(mesh) + " of " +
                                 std::to_string(scene.world.meshes.size()) + " meshes");
         const Mesh& old = scene.world.meshes[mesh];
-        const Buffer points = Buffer::of<float>(
-            vertices, "vertices", {static_cast<int64_t>(old.vertices.size()), 3});
+        const Buffer points =
+            Buffer::of<float>(vertices, "vertices", {static_cast<int64_t>(old.vertices.size()), 3});
         const auto count = static_cast<int64_t>(old.triangles.size());
         if (normals && normals != Py_None) {
             const Buffer corners = Buffer::of<float>(normals, "normals", {count, 3, 3});

@@ -34,7 +34,8 @@ double world_area(const Scene& scene, const EmissiveTriangle& at) {
     return std::isfinite(area) ? area : 0.0;
 }
 
-/// Of a sphere, that of one as large that was not stretched; the kernel sets it right point by point.
+/// Of a sphere, that of one as large that was not stretched; the kernel sets it right point by
+/// point.
 double sphere_area(const Instance& instance) {
     const double radius = std::cbrt(std::fabs(determinant(instance.object_to_world)));
     return 4.0 * kPi * radius * radius;
@@ -42,8 +43,7 @@ double sphere_area(const Instance& instance) {
 
 bool any_slot_emits(const Scene& scene, int32_t instance) {
     const int64_t first = scene.first_slot[instance];
-    if (scene.slot_count[instance] == 0)
-        return scene.tables.materials[0].emission_weight > 0.0f;
+    if (scene.slot_count[instance] == 0) return scene.tables.materials[0].emission_weight > 0.0f;
     for (int32_t k = 0; k < scene.slot_count[instance]; ++k)
         if (scene.tables.materials[scene.slot_materials[first + k]].emission_weight > 0.0f)
             return true;
@@ -71,8 +71,9 @@ double gather_triangles(const Scene& scene, EmitterTables* tables) {
         const size_t count = sphere ? 1 : mesh.triangles.size();
         for (size_t t = 0; t < count; ++t) {
             const EmissiveTriangle at{static_cast<int32_t>(i), static_cast<int32_t>(t)};
-            const double weight = scene.tables.materials[material_index(scene, at)].emission_weight *
-                                  (sphere ? sphere_area(instance) : world_area(scene, at));
+            const double weight =
+                scene.tables.materials[material_index(scene, at)].emission_weight *
+                (sphere ? sphere_area(instance) : world_area(scene, at));
             if (!(weight > 0.0)) continue;
             tables->triangles.push_back(at);
             weights.push_back(weight);
@@ -86,16 +87,17 @@ double gather_triangles(const Scene& scene, EmitterTables* tables) {
 double power_of(const Light& light) {
     const double brightness = std::fabs(luminance(light.color));
     switch (light.kind) {
-        case LightKind::sun: return brightness * (light.extended ? light.solid_angle : 1.0f);
+        case LightKind::sun:
+            return brightness * (light.extended ? light.solid_angle : 1.0f);
         case LightKind::point:
         case LightKind::spot: {
             const double sphere = light.extended ? kPi * light.radius * light.radius : 1.0;
-            const double cone = light.kind == LightKind::spot
-                                    ? std::max(0.5 * (1.0 - light.cos_outer), 1e-3)
-                                    : 1.0;
+            const double cone =
+                light.kind == LightKind::spot ? std::max(0.5 * (1.0 - light.cos_outer), 1e-3) : 1.0;
             return 4.0 * kPi * brightness * sphere * cone;
         }
-        default: return kPi * brightness * light.area;
+        default:
+            return kPi * brightness * light.area;
     }
 }
 
@@ -149,7 +151,8 @@ EmitterTables build_emitters(const Scene& scene) {
         // A floor keeps every emitter in the draw, however faint beside the others.
         for (double& power : powers) power += 1e-3 * total / static_cast<double>(powers.size());
         tables.pool_limits = cumulate(powers);
-        for (double power : powers) tables.pool_shares.push_back(static_cast<float>(power / (1.001 * total)));
+        for (double power : powers)
+            tables.pool_shares.push_back(static_cast<float>(power / (1.001 * total)));
     }
     if (triangle_weight > 0.0)
         tables.triangle_density = static_cast<float>(tables.pool_shares.back() / triangle_weight);
@@ -159,10 +162,11 @@ EmitterTables build_emitters(const Scene& scene) {
 
 EmitterView view_emitters(const EmitterTables& t) {
     const auto size = [](const auto& v) { return static_cast<int32_t>(v.size()); };
-    return {t.always.data(),   size(t.always),           t.pool.data(),      t.pool_limits.data(),
-            t.pool_shares.data(), size(t.pool),          t.extended.data(),  t.extended_shares.data(),
-            size(t.extended),  t.triangles.data(),       t.triangle_limits.data(),
-            size(t.triangles), t.triangle_density};
+    return {t.always.data(),      size(t.always),           t.pool.data(),
+            t.pool_limits.data(), t.pool_shares.data(),     size(t.pool),
+            t.extended.data(),    t.extended_shares.data(), size(t.extended),
+            t.triangles.data(),   t.triangle_limits.data(), size(t.triangles),
+            t.triangle_density};
 }
 
 }  // namespace trg

@@ -14,11 +14,11 @@ struct EmitterTables {
     std::vector<float> pool_shares, extended_shares;
     std::vector<EmissiveTriangle> triangles;
     float triangle_density = 0.0f;
-    bool endless = false;   // a plane emits: bounce rays find it, nobody can sample it
+    bool endless = false;  // a plane emits: bounce rays find it, nobody can sample it
 };
 
-/// Suns, the four strongest of them, get a sample at every point; everything else shares one sample,
-/// chosen by power. Emissive triangles are chosen by area times luminance.
+/// Suns, the four strongest of them, get a sample at every point; everything else shares one
+/// sample, chosen by power. Emissive triangles are chosen by area times luminance.
 EmitterTables build_emitters(const Scene& scene);
 
 /// `tables`, which must outlive the view.

@@ -47,10 +47,11 @@ void FrozenScene::check_materials(const Scene& scene) const {
         throw TableError("materials: the scene has instances but no material");
     const int64_t textures = static_cast<int64_t>(scene.tables.textures.size());
     for (const Material& m : scene.tables.materials)
-        for (int32_t index : {m.base_texture, m.roughness_texture, m.metallic_texture,
-                              m.emission_texture})
+        for (int32_t index :
+             {m.base_texture, m.roughness_texture, m.metallic_texture, m.emission_texture})
             if (index >= textures)
-                throw TableError("textures: the table was replaced by one too short for the materials");
+                throw TableError(
+                    "textures: the table was replaced by one too short for the materials");
 }
 
 void FrozenScene::view_images(const Scene& scene) {

@@ -4,11 +4,14 @@
 namespace trg {
 
 const std::vector<const char*> kLightFields = {
-    "kind",         "color_r",     "color_g",     "color_b",          "position_x",
-    "position_y",   "position_z",  "direction_x", "direction_y",      "direction_z",
-    "axis_u_x",     "axis_u_y",    "axis_u_z",    "axis_v_x",         "axis_v_y",
-    "axis_v_z",     "radius",      "angle",       "cos_outer",        "cos_inner",
-    "falloff_constant", "falloff_linear", "falloff_quadratic"};
+    "kind",           "color_r",          "color_g",
+    "color_b",        "position_x",       "position_y",
+    "position_z",     "direction_x",      "direction_y",
+    "direction_z",    "axis_u_x",         "axis_u_y",
+    "axis_u_z",       "axis_v_x",         "axis_v_y",
+    "axis_v_z",       "radius",           "angle",
+    "cos_outer",      "cos_inner",        "falloff_constant",
+    "falloff_linear", "falloff_quadratic"};
 
 namespace {
 
@@ -36,8 +39,7 @@ LightRow read_light(TableRow& row) {
     light.cos_inner = row.next();
     for (float& coefficient : light.falloff) coefficient = row.next();
     light.direction = normalize_safe(light.direction);
-    if (is_black(light.direction) && light.kind != LightKind::point)
-        row.fail("has no direction");
+    if (is_black(light.direction) && light.kind != LightKind::point) row.fail("has no direction");
     return read;
 }
 
@@ -72,10 +74,15 @@ void set_lights(ShadingTables& tables, const Table& table) {
         TableRow row(table, "lights", kLightFields, at);
         LightRow read = read_light(row);
         switch (read.light.kind) {
-            case LightKind::sun: prepare_sun(read.light, read.angle); break;
+            case LightKind::sun:
+                prepare_sun(read.light, read.angle);
+                break;
             case LightKind::point:
-            case LightKind::spot: prepare_point(read.light); break;
-            default: prepare_area(read.light);
+            case LightKind::spot:
+                prepare_point(read.light);
+                break;
+            default:
+                prepare_area(read.light);
         }
         if (!is_finite(read.light.color)) row.fail("has a colour too large for its extent");
         lights.push_back(read.light);

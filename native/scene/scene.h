@@ -11,17 +11,17 @@ namespace trg {
 
 /// What a mesh carries besides its shape; each array is empty when nothing asks for it.
 struct MeshAttributes {
-    std::vector<float> normals;   // 9 a triangle: three unit corner normals
-    std::vector<float> uvs;       // 6 a triangle: three corner coordinates
-    std::vector<int32_t> slots;   // 1 a triangle: material slot
+    std::vector<float> normals;  // 9 a triangle: three unit corner normals
+    std::vector<float> uvs;      // 6 a triangle: three corner coordinates
+    std::vector<int32_t> slots;  // 1 a triangle: material slot
 };
 
 struct Scene {
     World world;
-    std::vector<MeshAttributes> attributes;   // one a mesh
-    std::vector<int32_t> slot_materials;      // slot -> material, of all instances in a row
-    std::vector<int64_t> first_slot;          // one an instance: where its slots begin
-    std::vector<int32_t> slot_count;          // one an instance
+    std::vector<MeshAttributes> attributes;  // one a mesh
+    std::vector<int32_t> slot_materials;     // slot -> material, of all instances in a row
+    std::vector<int64_t> first_slot;         // one an instance: where its slots begin
+    std::vector<int32_t> slot_count;         // one an instance
     ShadingTables tables;
 };
 

@@ -5,10 +5,21 @@
 
 namespace trg {
 
-const std::vector<const char*> kMaterialFields = {
-    "base_r",       "base_g",     "base_b",       "metallic",          "roughness",
-    "ior",          "specular",   "transmission", "emission_r",        "emission_g",
-    "emission_b",   "base_texture", "roughness_texture", "metallic_texture", "emission_texture"};
+const std::vector<const char*> kMaterialFields = {"base_r",
+                                                  "base_g",
+                                                  "base_b",
+                                                  "metallic",
+                                                  "roughness",
+                                                  "ior",
+                                                  "specular",
+                                                  "transmission",
+                                                  "emission_r",
+                                                  "emission_g",
+                                                  "emission_b",
+                                                  "base_texture",
+                                                  "roughness_texture",
+                                                  "metallic_texture",
+                                                  "emission_texture"};
 
 const std::vector<const char*> kTextureFields = {"image",    "scale_u",  "scale_v",
                                                  "offset_u", "offset_v", "wrap"};
@@ -123,9 +134,10 @@ float srgb_to_linear(float encoded) {
 int add_image(ShadingTables& tables, Image image) {
     for (size_t k = 0; k < image.floats.size(); ++k) {
         if (!std::isfinite(image.floats[k]))
-            throw TableError("pixels: row " +
-                             std::to_string(k / (static_cast<size_t>(image.width) * image.channels)) +
-                             " has a number that is not finite");
+            throw TableError(
+                "pixels: row " +
+                std::to_string(k / (static_cast<size_t>(image.width) * image.channels)) +
+                " has a number that is not finite");
         if (image.srgb) image.floats[k] = srgb_to_linear(image.floats[k]);
     }
     tables.images.push_back(std::move(image));

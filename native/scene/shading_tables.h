@@ -46,7 +46,7 @@ struct ShadingTables {
 struct CameraRequest {
     int kind;
     const double* matrix;
-    const double* window;   // left, right, bottom, top
+    const double* window;  // left, right, bottom, top
     double clip_start, clip_end;
 };
 

@@ -10,7 +10,8 @@ namespace trg {
 /// One row of a table whose columns are `fields`.
 class TableRow {
   public:
-    TableRow(const Table& table, const char* name, const std::vector<const char*>& fields, int64_t row)
+    TableRow(const Table& table, const char* name, const std::vector<const char*>& fields,
+             int64_t row)
         : table_(table), name_(name), fields_(fields), row_(row) {}
 
     /// The next column; throws TableError unless it lies in [low, high].

@@ -13,18 +13,18 @@ namespace trg {
 /// The mixture at one point, seen from one direction.
 struct Bsdf {
     Vec3 wo;
-    Vec3 ng;                            // geometric normal on the viewer's side, local
-    Vec3 f0;                            // base colour
-    Vec3 diffuse;                       // base / pi (1 - s F(wo)) / (1 - s Fbar), times its share
-    Vec3 tint;                          // of refraction
-    float alpha, slope_wo;              // slope_wo: ggx_slope(wo)
-    float ior;                          // seen from outside, for the opaque dielectric
-    float eta;                          // far side over near side, for the interface
-    float specular;                     // s
-    float metal, glass, opaque;         // shares of the mixture, their sum is 1
-    float p_metal, p_glass, p_gloss, p_diffuse;   // how often each lobe is sampled
-    bool smooth;                        // mirrors and interfaces are ideal
-    bool thin_step;                     // eta so near 1 that refraction can only be sampled
+    Vec3 ng;                     // geometric normal on the viewer's side, local
+    Vec3 f0;                     // base colour
+    Vec3 diffuse;                // base / pi (1 - s F(wo)) / (1 - s Fbar), times its share
+    Vec3 tint;                   // of refraction
+    float alpha, slope_wo;       // slope_wo: ggx_slope(wo)
+    float ior;                   // seen from outside, for the opaque dielectric
+    float eta;                   // far side over near side, for the interface
+    float specular;              // s
+    float metal, glass, opaque;  // shares of the mixture, their sum is 1
+    float p_metal, p_glass, p_gloss, p_diffuse;  // how often each lobe is sampled
+    bool smooth;                                 // mirrors and interfaces are ideal
+    bool thin_step;  // eta so near 1 that refraction can only be sampled
 };
 
 /// Value times |cos wi|, and density, of everything that is not a delta.
@@ -91,8 +91,8 @@ TRG_FN bool make_bsdf(const Material& m, const View& view, Bsdf* b) {
 }
 
 TRG_FN BsdfValue eval_reflection(const Bsdf& b, Vec3 wi) {
-    const float left = 1.0f - b.specular * (b.p_diffuse > 0.0f ? fresnel_dielectric(wi.z, b.ior)
-                                                               : 0.0f);
+    const float left =
+        1.0f - b.specular * (b.p_diffuse > 0.0f ? fresnel_dielectric(wi.z, b.ior) : 0.0f);
     BsdfValue value{b.diffuse * (left * wi.z), b.p_diffuse * wi.z * kInvPi};
     if (b.smooth || b.p_metal + b.p_glass + b.p_gloss == 0.0f) return value;
     const Vec3 h = normalize(b.wo + wi);
@@ -105,8 +105,8 @@ TRG_FN BsdfValue eval_reflection(const Bsdf& b, Vec3 wi) {
     if (b.p_metal > 0.0f) f = f + fresnel_schlick(b.f0, c) * b.metal;
     const float g2 = 2.0f / (b.slope_wo + ggx_slope(wi, b.alpha));
     value.f_cos = value.f_cos + f * (d * g2 / (4.0f * b.wo.z));
-    value.pdf += (b.p_metal + b.p_gloss + b.p_glass * f_glass) * d /
-                 (2.0f * b.wo.z * (1.0f + b.slope_wo));
+    value.pdf +=
+        (b.p_metal + b.p_gloss + b.p_glass * f_glass) * d / (2.0f * b.wo.z * (1.0f + b.slope_wo));
     return value;
 }
 
@@ -175,8 +175,8 @@ TRG_FN bool sample_glass(const Bsdf& b, Vec3 h, float u, BsdfSample* sample, boo
     const Vec3 wi = refract_or_reflect(b.wo, h, b.eta, u, &reflected);
     *is_done = b.smooth || (b.thin_step && !reflected);
     sample->wi = wi;
-    // A facet that sends light through the surface ends the path: eval_bsdf would take the direction
-    // for one of the other side, whose density does not count this way of finding it.
+    // A facet that sends light through the surface ends the path: eval_bsdf would take the
+    // direction for one of the other side, whose density does not count this way of finding it.
     if (reflected != (wi.z > 0.0f)) return false;
     if (!*is_done) return true;
     if (!sample_glass_delta(b, wi, reflected, sample)) return false;
@@ -194,8 +194,8 @@ TRG_FN bool sample_bsdf(const Bsdf& b, float lobe, Sample2 uv, BsdfSample* sampl
         sample->wi = sample_cosine(uv.u, uv.v);
     } else {
         lobe -= b.p_diffuse;
-        const Vec3 h = b.smooth ? Vec3{0.0f, 0.0f, 1.0f}
-                                : sample_visible_normal(b.wo, b.alpha, uv.u, uv.v);
+        const Vec3 h =
+            b.smooth ? Vec3{0.0f, 0.0f, 1.0f} : sample_visible_normal(b.wo, b.alpha, uv.u, uv.v);
         const bool glass = kTransmission && (lobe < b.p_glass || p_mirror == 0.0f);
         if (glass) {
             bool is_done;

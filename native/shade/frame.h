@@ -9,8 +9,12 @@ constexpr float kPi = 3.14159265358979f;
 constexpr float kInvPi = 0.318309886183791f;
 
 /// The larger and the smaller of two numbers; the second where either is not a number.
-TRG_FN float larger(float a, float b) { return a > b ? a : b; }
-TRG_FN float smaller(float a, float b) { return a < b ? a : b; }
+TRG_FN float larger(float a, float b) {
+    return a > b ? a : b;
+}
+TRG_FN float smaller(float a, float b) {
+    return a < b ? a : b;
+}
 
 /// Right-handed unit axes; `n` is the local z.
 struct Frame {
@@ -22,20 +26,33 @@ TRG_FN Frame make_frame(Vec3 n) {
     const float sign = std::copysign(1.0f, n.z);
     const float a = -1.0f / (sign + n.z);
     const float b = n.x * n.y * a;
-    return {{1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x},
-            {b, sign + n.y * n.y * a, -n.y},
-            n};
+    return {
+        {1.0f + sign * n.x * n.x * a, sign * b, -sign * n.x}, {b, sign + n.y * n.y * a, -n.y}, n};
 }
 
-TRG_FN Vec3 to_local(const Frame& f, Vec3 w) { return {dot(w, f.s), dot(w, f.t), dot(w, f.n)}; }
-TRG_FN Vec3 to_world(const Frame& f, Vec3 w) { return f.s * w.x + f.t * w.y + f.n * w.z; }
+TRG_FN Vec3 to_local(const Frame& f, Vec3 w) {
+    return {dot(w, f.s), dot(w, f.t), dot(w, f.n)};
+}
+TRG_FN Vec3 to_world(const Frame& f, Vec3 w) {
+    return f.s * w.x + f.t * w.y + f.n * w.z;
+}
 
 /// Rec.709 luminance.
-TRG_FN float luminance(Vec3 c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; }
-TRG_FN float max_component(Vec3 c) { return larger(c.x, larger(c.y, c.z)); }
-TRG_FN Vec3 absolute(Vec3 a) { return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)}; }
-TRG_FN bool is_black(Vec3 c) { return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f; }
-TRG_FN float clamp01(float x) { return x < 0.0f ? 0.0f : (x > 1.0f ? 1.0f : x); }
+TRG_FN float luminance(Vec3 c) {
+    return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z;
+}
+TRG_FN float max_component(Vec3 c) {
+    return larger(c.x, larger(c.y, c.z));
+}
+TRG_FN Vec3 absolute(Vec3 a) {
+    return {std::fabs(a.x), std::fabs(a.y), std::fabs(a.z)};
+}
+TRG_FN bool is_black(Vec3 c) {
+    return c.x == 0.0f && c.y == 0.0f && c.z == 0.0f;
+}
+TRG_FN float clamp01(float x) {
+    return x < 0.0f ? 0.0f : (x > 1.0f ? 1.0f : x);
+}
 
 /// `a` scaled to length 1 without overflow or underflow; the null vector when `a` is null or holds
 /// a number that is not finite.

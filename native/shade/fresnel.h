@@ -40,8 +40,8 @@ TRG_FN float mean_fresnel_dielectric(float eta) {
     for (int block = 0; block < kSteps; block += 64) {
         float part = 0.0f;
         for (int k = block; k < block + 64; ++k)
-            part += fresnel_dielectric(
-                std::sqrt((static_cast<float>(k) + 0.5f) * (1.0f / kSteps)), eta);
+            part += fresnel_dielectric(std::sqrt((static_cast<float>(k) + 0.5f) * (1.0f / kSteps)),
+                                       eta);
         sum += part;
     }
     return sum * (1.0f / kSteps);

@@ -28,8 +28,7 @@ TRG_FN Vec3 sample_visible_normal(Vec3 wo, float alpha, float u, float v) {
     const float phi = 2.0f * kPi * u;
     const float z = (1.0f - v) * (1.0f + stretched.z) - stretched.z;
     const float r = std::sqrt(larger(0.0f, (1.0f - z) * (1.0f + z)));
-    const Vec3 h{r * std::cos(phi) + stretched.x, r * std::sin(phi) + stretched.y,
-                 z + stretched.z};
+    const Vec3 h{r * std::cos(phi) + stretched.x, r * std::sin(phi) + stretched.y, z + stretched.z};
     return normalize(Vec3{alpha * h.x, alpha * h.y, larger(h.z, 0.0f)});
 }
 

@@ -1,4 +1,5 @@
-/// Lights as kernels see them: how they are sampled from a point, and what a bounce ray sees of them.
+/// Lights as kernels see them: how they are sampled from a point, and what a bounce ray sees of
+/// them.
 #pragma once
 
 #include "shade/frame.h"
@@ -12,16 +13,16 @@ enum class LightKind : int32_t { sun, point, spot, rectangle, ellipse };
 /// with extent, intensity of a delta point, irradiance at distance 0 under a falloff.
 struct Light {
     LightKind kind;
-    bool extended;          // seen by bounce rays; otherwise a delta
-    bool inverse_square;    // false: the falloff coefficients hold
+    bool extended;        // seen by bounce rays; otherwise a delta
+    bool inverse_square;  // false: the falloff coefficients hold
     Vec3 color;
     Vec3 position;
-    Vec3 direction;         // sun: towards the light; others: along which it shines; unit
-    Vec3 axis_u, axis_v;    // half axes
+    Vec3 direction;       // sun: towards the light; others: along which it shines; unit
+    Vec3 axis_u, axis_v;  // half axes
     float radius;
-    float area;             // rectangle, ellipse
-    float solid_angle;      // sun
-    float chord2;           // sun: squared chord from the centre of the disc to its rim
+    float area;         // rectangle, ellipse
+    float solid_angle;  // sun
+    float chord2;       // sun: squared chord from the centre of the disc to its rim
     float cos_outer, cos_inner;
     float falloff[3];
 };
@@ -49,11 +50,10 @@ TRG_FN float eval_spot(const Light& light, Vec3 travel) {
 
 /// Half of the unit cone of squared chord `chord2` around `axis`, uniform by solid angle.
 TRG_FN Vec3 sample_cone(Vec3 axis, float chord2, Sample2 uv) {
-    const float drop = 0.5f * chord2 * uv.u;   // 1 - cos
+    const float drop = 0.5f * chord2 * uv.u;  // 1 - cos
     const float sine = std::sqrt(larger(0.0f, drop * (2.0f - drop)));
     const float phi = 2.0f * kPi * uv.v;
-    return to_world(make_frame(axis),
-                    {sine * std::cos(phi), sine * std::sin(phi), 1.0f - drop});
+    return to_world(make_frame(axis), {sine * std::cos(phi), sine * std::sin(phi), 1.0f - drop});
 }
 
 TRG_FN bool sample_sun(const Light& light, Sample2 uv, LightSample* sample) {
@@ -70,7 +70,8 @@ TRG_FN bool sample_sun(const Light& light, Sample2 uv, LightSample* sample) {
 
 TRG_FN float eval_falloff(const Light& light, float distance) {
     if (light.inverse_square) return 1.0f / (distance * distance);
-    const float below = light.falloff[0] + distance * (light.falloff[1] + distance * light.falloff[2]);
+    const float below =
+        light.falloff[0] + distance * (light.falloff[1] + distance * light.falloff[2]);
     return below > 1.0f ? 1.0f / below : 1.0f;
 }
 
@@ -136,19 +137,21 @@ TRG_FN bool sample_area(const Light& light, Vec3 p, Sample2 uv, LightSample* sam
 /// Draws a direction from `p` to `light`; false when nothing arrives.
 TRG_FN bool sample_light(const Light& light, Vec3 p, Sample2 uv, LightSample* sample) {
     switch (light.kind) {
-        case LightKind::sun: return sample_sun(light, uv, sample);
+        case LightKind::sun:
+            return sample_sun(light, uv, sample);
         case LightKind::point:
         case LightKind::spot:
             return light.extended ? sample_sphere(light, p, uv, sample)
                                   : sample_delta_point(light, p, sample);
-        default: return sample_area(light, p, uv, sample);
+        default:
+            return sample_area(light, p, uv, sample);
     }
 }
 
 /// What a ray from `p` along unit `wi`, ending at `t_max`, sees of a light with extent.
 struct LightHit {
     Vec3 radiance;
-    float pdf;   // of sample_light for this direction
+    float pdf;  // of sample_light for this direction
 };
 
 TRG_FN bool intersect_area_light(const Light& light, Vec3 p, Vec3 wi, float t_max, LightHit* hit) {

@@ -11,17 +11,17 @@ namespace trg {
 struct Material {
     Vec3 base;
     float metallic, roughness, ior, specular, transmission;
-    float mean_fresnel;       // of `ior`, over the hemisphere
+    float mean_fresnel;  // of `ior`, over the hemisphere
     Vec3 emission;
-    float emission_weight;    // how much emitter sampling favours it; 0: does not emit
+    float emission_weight;  // how much emitter sampling favours it; 0: does not emit
     int32_t base_texture, roughness_texture, metallic_texture, emission_texture;
 };
 
 /// Pixels of one image; row 0 is the bottom row. One of `bytes` and `floats` is null.
 struct ImageView {
     const uint8_t* bytes;
-    const float* floats;           // linear
-    const float* byte_to_linear;   // 256 values
+    const float* floats;          // linear
+    const float* byte_to_linear;  // 256 values
     int32_t width, height, channels;
 };
 
