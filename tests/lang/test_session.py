@@ -12,6 +12,7 @@ from trg_blender.lang import (
     Session,
     compile_source,
 )  # fmt: skip
+from trg_blender.lang.faults import FaultReader
 
 
 def _session(text: str, **options) -> Session:
@@ -89,3 +90,10 @@ def test_russian_messages() -> None:
     event = session.next_frame()
     assert isinstance(event, EndEvent) and event.error is not None
     assert event.error.message == "деление на ноль"
+
+
+def test_a_fault_of_ours_says_so_and_names_the_command_that_repeats_it() -> None:
+    session = _session("x = 1;")
+    error = FaultReader(session._rt).read(LookupError("a fault that no reader knows"))
+    assert (error.code, error.hint) == ("E900", "repeat it with: trg run main.trg")
+    assert "LookupError" in error.message

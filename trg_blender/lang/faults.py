@@ -58,6 +58,9 @@ class FaultReader:
         related: tuple[tuple[Span, str], ...] = ()
         if told.argument is not None and told.argument + 1 < len(site.operands):
             related = ((site.operands[told.argument + 1], "argument_here"),)
+        if told.code == "E900":
+            told.hint = "repeat"
+            told.values["command"] = f"trg run {self.rt.program.main}"
         notice = Notice(told.code, span, told.values, told.hint, None, related)
         made = build_diagnostic(notice, "error", self.rt.options.language)
         return Diagnostic(

@@ -44,7 +44,8 @@ def format_source(text: str, file_name: str, language: str = "en") -> str:
     pieces = read_pieces(source)
     made = _Printer().print_program(pieces)
     if content_of(read_pieces(SourceFile.from_text(file_name, made))) != content_of(pieces):
-        bag.add(Notice("E900", Span(file_name, 1, 1, 1, 1), {"kind": "formatter"}))
+        place = Span(file_name, 1, 1, 1, 1)
+        bag.add(Notice("E900", place, {"kind": "formatter", "command": f"trg fmt {file_name}"}, "repeat"))
         raise ProgramError(bag.in_order())
     return made
 

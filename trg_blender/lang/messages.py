@@ -301,6 +301,7 @@ HINTS: dict[str, tuple[str, str]] = {
         "raise the limit with --limit {option}=N, or in the preferences",
         "увеличьте предел: --limit {option}=N или в настройках",
     ),
+    "repeat": ("repeat it with: {command}", "повторить: {command}"),
     "reserved": ("reserved for later versions", "оставлено для следующих версий"),
     "reserved_word": ("this keyword cannot stand here", "это служебное слово здесь не может стоять"),
     "split_expression": ("split it into several statements", "разбейте на несколько операторов"),
