@@ -22,10 +22,10 @@ from .native import ACCELERATORS
 from .pace import Pace
 from .report import Progress, format_progress, with_source
 from .result import Failure, border_of, records, register_passes, wanted_passes, write_pixels
+from .run_text import ENGINE_ID
 from .scene_arrays import RenderSettings, SceneArrays
 from .to_blender import requested_modes
 
-ENGINE_ID = "TRG"
 POLL_SECONDS = 0.03
 BUDGET = 3
 """exit code of a program that a limit stopped"""
@@ -242,12 +242,4 @@ def choose_device(wish: str | int | None, warnings: list[str]) -> str:
 
 CLASSES = (TRGRenderEngine,)
 
-
-def register() -> None:
-    for each in CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister() -> None:
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

@@ -28,12 +28,4 @@ class TRG_OT_build(bpy.types.Operator):
 
 CLASSES = (TRG_OT_build,)
 
-
-def register() -> None:
-    for each in CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister() -> None:
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)

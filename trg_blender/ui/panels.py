@@ -7,8 +7,8 @@ from typing import Any
 
 import bpy
 
-from ..engine.render_engine import ENGINE_ID
 from ..engine.result import records
+from ..engine.run_text import ENGINE_ID
 
 ADOPTED_BY_NAME = {
     "MATERIAL_PT_preview",

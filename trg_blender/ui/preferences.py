@@ -118,12 +118,4 @@ class TRGPreferences(bpy.types.AddonPreferences):
 
 CLASSES = (TRG_PG_folder, TRG_OT_folder_add, TRG_OT_folder_remove, TRGPreferences)
 
-
-def register() -> None:
-    for each in CLASSES:
-        bpy.utils.register_class(each)
-
-
-def unregister() -> None:
-    for each in reversed(CLASSES):
-        bpy.utils.unregister_class(each)
+register, unregister = bpy.utils.register_classes_factory(CLASSES)
