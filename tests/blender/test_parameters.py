@@ -8,7 +8,7 @@ bpy = pytest.importorskip("bpy")
 
 from trg_blender.cli import main  # noqa: E402
 from trg_blender.engine import run_text  # noqa: E402
-from trg_blender.ui import registration  # noqa: E402
+from trg_blender.ui import live_parameters, registration  # noqa: E402
 
 PROGRAM = """export radius = 3 ~ "num" ~ range(0.5, 10); // of the ball
 export count = 2 ~ range(1, 5, 1);
@@ -99,6 +99,88 @@ def test_parameters_can_be_keyed(scene):
     assert _run(scene, 5)[0].startswith("5 ")
     scene.frame_set(1)
     assert _run(scene, 1)[0].startswith("1 ")
+
+
+def _move(scene, name, value):
+    """What the interface does when a slider moves: set the property, tag its scene, update."""
+    scene.trg.parameters[name] = value
+    scene.update_tag()
+    bpy.context.view_layer.update()
+
+
+def _is_waiting():
+    return bpy.app.timers.is_registered(live_parameters.run_when_settled)
+
+
+def _width(scene):
+    (ball,) = [o for o in scene.objects if o.name.startswith("sphere")][:1]
+    return ball.dimensions.x
+
+
+def test_a_slider_that_moved_and_rests_runs_the_program(scene):
+    _give(scene)
+    _run(scene)
+    bpy.context.view_layer.update()
+    assert not _is_waiting()
+    _move(scene, "radius", 4.0)
+    assert _is_waiting()
+    scene.trg.parameters["radius"] = 5.0  # still moving when the timer comes
+    assert live_parameters.run_when_settled() == live_parameters.REST_SECONDS
+    log = run_text.program_log(scene)
+    log.clear()
+    assert live_parameters.run_when_settled() is None
+    assert log[-1].startswith("5 ")
+    bpy.context.view_layer.update()
+    assert _width(scene) == pytest.approx(10.0)
+
+
+def test_other_changes_of_a_scene_run_no_program(scene):
+    _give(scene)
+    _run(scene)
+    scene.update_tag()
+    bpy.context.view_layer.update()
+    scene.objects[0].location.x = 3.0
+    bpy.context.view_layer.update()
+    assert not _is_waiting()
+
+
+def test_a_frame_that_moves_a_keyed_slider_runs_no_program_by_itself(scene):
+    _give(scene)
+    for frame, radius in ((1, 1.0), (5, 5.0)):
+        scene.trg.parameters["radius"] = radius
+        scene.trg.parameters.keyframe_insert('["radius"]', frame=frame)
+    _run(scene)
+    scene.frame_set(5)
+    scene.update_tag()
+    bpy.context.view_layer.update()
+    assert not _is_waiting()
+
+
+def test_what_a_slider_breaks_is_said_and_mended(scene):
+    _give(scene, PROGRAM.replace("print(radius", "x = 1 / (radius - 4); print(radius"))
+    _run(scene)
+    bpy.context.view_layer.update()
+    _move(scene, "radius", 4.0)
+    live_parameters.run_when_settled()
+    assert "division by zero" in live_parameters.failure_of(scene)
+    _move(scene, "radius", 5.0)
+    live_parameters.run_when_settled()
+    assert live_parameters.failure_of(scene) == ""
+
+
+def test_frames_of_a_keyed_slider_do_not_depend_on_the_way_there(scene):
+    """Frame k with its value is the k-th Render() of a run that had this value from the start."""
+    _give(scene)
+    for frame, radius in ((1, 1.0), (5, 5.0)):
+        scene.trg.parameters["radius"] = radius
+        scene.trg.parameters.keyframe_insert('["radius"]', frame=frame)
+    widths = {}
+    for frame in (1, 3, 5, 3, 1):
+        scene.frame_set(frame)
+        assert run_text.run_program(scene, frame).failure is None
+        bpy.context.view_layer.update()
+        assert widths.setdefault(frame, _width(scene)) == _width(scene)
+    assert widths[1] == pytest.approx(2.0) and widths[5] == pytest.approx(10.0)
 
 
 def test_values_are_saved_with_the_file(scene, tmp_path):

@@ -46,9 +46,7 @@ def border_of(
     return (x_min, y_min, x_min + part[0], y_min + part[1])
 
 
-def write_pixels(
-    result: bpy.types.RenderResult, picture: Float32, passes: Mapping[str, Float32]
-) -> None:
+def write_pixels(result: bpy.types.RenderResult, picture: Float32, passes: Mapping[str, Float32]) -> None:
     """Puts combined (h, w, 4) and the passes that `result` has into its first layer; row 0 is the bottom."""
     pixels = {"Combined": picture}
     pixels.update({PASSES[name][1]: values for name, values in passes.items() if name in PASSES})

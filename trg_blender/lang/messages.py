@@ -250,6 +250,10 @@ MESSAGES: dict[str, tuple[str, str]] = {
     ),
     "L802": ("'{name}' hides the built-in of that name", "'{name}' закрывает встроенное имя"),
     "L803": ("this case runs on into the next one", "этот case переходит в следующий"),
+    "L804": (
+        "'{name}' looks like another name but has letters of another alphabet",
+        "'{name}' выглядит как другое имя, но в нём буквы другого алфавита",
+    ),
 }
 
 HINTS: dict[str, tuple[str, str]] = {
@@ -312,6 +316,11 @@ HINTS: dict[str, tuple[str, str]] = {
     "usage": ("{usage}", "{usage}"),
     "write_0": ("write 0", "пишите 0"),
     "write_1": ("write 1", "пишите 1"),
+    "other_name": ("the other name", "другое имя"),
+    "write_again": (
+        "type it anew as '{other}' in one alphabet, or choose another name",
+        "наберите '{other}' заново в одной раскладке или выберите другое имя",
+    ),
     "write_and": ("write &&", "пишите &&"),
     "write_break": ("end it with break; if that is not meant", "завершите его break;, если это не нарочно"),
     "write_equals": ("write == to compare", "для сравнения пишите =="),

@@ -11,6 +11,7 @@ from dataclasses import dataclass, field
 
 from . import ast
 from .diagnostics import DiagnosticBag, Notice, closest, is_certain
+from .look_alikes import lint_look_alikes
 from .source import Span
 
 TYPE_NAMES = (
@@ -87,6 +88,8 @@ class _Resolver:
             self._check(info.expressions, info)
             self._check_parameters(info)
         result.file_variables = self._find_file_variables()
+        contexts = (result.globals, *(info.locals for info in result.functions.values()))
+        lint_look_alikes((n for names in contexts for n in names.items()), result.builtins, self.bag)
         return result
 
     def _find_file_variables(self) -> set[str]:

@@ -72,7 +72,10 @@ class Vec3(tuple, Value):  # type: ignore[misc]
         return compare(">=", self, other)
 
     def __eq__(self, other: object) -> bool:
-        return type(other) is Vec3 and tuple.__eq__(self, other)
+        if type(other) is not Vec3:
+            return False
+        # Not tuple's: that takes a nan for equal to itself.
+        return bool(self[0] == other[0] and self[1] == other[1] and self[2] == other[2])
 
     def __ne__(self, other: object) -> bool:
         return not self == other

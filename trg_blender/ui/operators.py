@@ -5,6 +5,7 @@ from __future__ import annotations
 import bpy
 
 from ..engine import run_text
+from .live_parameters import live
 
 
 class TRG_OT_build(bpy.types.Operator):
@@ -23,6 +24,7 @@ class TRG_OT_build(bpy.types.Operator):
         if outcome is not None and outcome.failure is not None:
             self.report({"ERROR"}, outcome.failure.text)
             return {"CANCELLED"}
+        live.failures.pop(context.scene.name, None)
         return {"FINISHED"}
 
 

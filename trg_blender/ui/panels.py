@@ -9,6 +9,7 @@ import bpy
 
 from ..engine.result import records
 from ..engine.run_text import ENGINE_ID
+from . import live_parameters
 
 ADOPTED_BY_NAME = {
     "MATERIAL_PT_preview",
@@ -59,6 +60,8 @@ class TRG_RENDER_PT_parameters(_RenderPanel, bpy.types.Panel):
         for name in parameters.keys():  # noqa: SIM118 (not a dict)
             path = f'["{bpy.utils.escape_identifier(name)}"]'
             layout.prop(parameters, path, text=name.replace("_", " "), slider=True)
+        for line in live_parameters.failure_of(context.scene).splitlines()[:1]:
+            layout.label(text=line, icon="ERROR")
 
 
 class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):

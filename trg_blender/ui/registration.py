@@ -7,9 +7,9 @@ import atexit
 import bpy
 
 from ..engine import render_engine, run_text
-from . import command, operators, panels, preferences, properties
+from . import command, live_parameters, operators, panels, preferences, properties
 
-PARTS = (preferences, properties, render_engine, run_text, operators, panels, command)
+PARTS = (preferences, properties, render_engine, run_text, live_parameters, operators, panels, command)
 
 
 def register() -> None:

@@ -105,9 +105,7 @@ class _Meshes:
         baked = MeshArrays(vertices, mesh.triangles, None, mesh.uvs, mesh.slots, mesh.origin)
         self.arrays.meshes.append(baked)
         identity = np.eye(3, 4, dtype=np.float32)[None]
-        self.arrays.instances.append(
-            InstanceArrays(len(self.arrays.meshes) - 1, identity, materials, origin)
-        )
+        self.arrays.instances.append(InstanceArrays(len(self.arrays.meshes) - 1, identity, materials, origin))
 
     def _mesh(self, group: MeshGroup, slots: tuple[int, ...]) -> int:
         uv_map = self.table.uv_map_of(slots)

@@ -1,2 +1,3 @@
 //@ let CYRILLIC = "\u0430"
-a = 1; ${CYRILLIC} = 2; print(a);   //= 1
+a = 1; ${CYRILLIC} = 2; print(a);   //? L804@8
+//= 1
