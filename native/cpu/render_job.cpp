@@ -49,7 +49,8 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
     const int threads =
         static_cast<int>(std::min<int64_t>(resolve_threads(request.threads), film_.tile_count()));
     const EmitterView& emitters = view_.scene.emitters;
-    const int32_t lights = emitters.always_count + (emitters.pool_count > 0 ? 1 : 0);
+    const int32_t lights = emitters.always_count + (emitters.pool_count > 0 ? 1 : 0) +
+                           (view_.scene.environment.sampled ? 1 : 0);
     for (int k = 0; k < threads; ++k)
         storages_.emplace_back(film_.tile_pixels() * kSamplesPerPass, lights);
     running_ = threads;

@@ -40,25 +40,10 @@ TRG_FN Vec3 ray_origin(const Surface& s, Vec3 ng, Vec3 wi) {
     return leave_surface(s, dot(ng, wi) > 0.0f ? ng : -ng);
 }
 
-/// The index whose share of 2^32 `bits` falls in.
-TRG_FN int32_t find_share(const uint32_t* limits, int32_t count, uint32_t bits) {
-    int32_t low = 0, high = count - 1;
-    while (low < high) {
-        const int32_t middle = (low + high) / 2;
-        if (bits < limits[middle])
-            high = middle;
-        else
-            low = middle + 1;
-    }
-    return low;
-}
-
-/// Queues what `emitter`, chosen with chance `share`, sends to `v`.
+/// Queues `sample` of an emitter that was chosen with chance `share`.
 template <uint32_t F>
-TRG_FN void add_light_sample(const Light& emitter, const Vertex& v, float share, Sample2 uv,
-                             ShadowQueue* queue) {
-    LightSample sample;
-    if (!sample_light(emitter, v.surface.position, uv, &sample)) return;
+TRG_FN void queue_sample(const LightSample& sample, const Vertex& v, float share,
+                         ShadowQueue* queue) {
     const BsdfValue f = eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, sample.wi));
     const float weight =
         sample.pdf > 0.0f ? power_heuristic(share * sample.pdf, f.pdf) / share : 1.0f / share;
@@ -68,6 +53,24 @@ TRG_FN void add_light_sample(const Light& emitter, const Vertex& v, float share,
     const float t_max = sample.distance < kFar ? sample.distance * 0.999998f : kFar;
     queue->rays[queue->count] = {ray_origin(v.surface, v.ng, sample.wi), 0.0f, sample.wi, t_max};
     queue->states[queue->count++] = {light, v.path};
+}
+
+/// Queues what `emitter`, chosen with chance `share`, sends to `v`.
+template <uint32_t F>
+TRG_FN void add_light_sample(const Light& emitter, const Vertex& v, float share, Sample2 uv,
+                             ShadowQueue* queue) {
+    LightSample sample;
+    if (sample_light(emitter, v.surface.position, uv, &sample))
+        queue_sample<F>(sample, v, share, queue);
+}
+
+/// Queues what a direction drawn from the environment sends to `v`.
+template <uint32_t F>
+TRG_FN void add_sky_sample(const EnvironmentView& sky, const Vertex& v, ShadowQueue* queue) {
+    uint32_t bits[2];
+    sample_bits(v.key, v.dimension + kSkyLight, bits);
+    LightSample sample;
+    if (sample_sky(sky, bits, &sample)) queue_sample<F>(sample, v, 1.0f, queue);
 }
 
 /// Queues what a random point of the emissive triangles sends to `v`.
@@ -103,6 +106,8 @@ TRG_FN void add_light_samples(const SceneView& scene, const Vertex& v, ShadowQue
     for (int32_t k = 0; k < e.always_count; ++k)
         add_light_sample<F>(scene.lights[e.always[k]], v, 1.0f,
                             sample_uniform2(v.key, v.dimension + kAlwaysLight + k), queue);
+    if constexpr (has(F, kEnvironment))
+        if (scene.environment.sampled) add_sky_sample<F>(scene.environment, v, queue);
     if (e.pool_count == 0) return;
     const Sample2 uv = sample_uniform2(v.key, v.dimension + kPoolPoint);
     uint32_t choice[2] = {0, 0};

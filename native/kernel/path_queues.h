@@ -72,7 +72,8 @@ enum Dimension : uint32_t {
     kPoolPoint = 2,
     kPoolChoice = 3,
     kAlwaysLight = 4,  // and the three after it
-    kDimensionsPerBounce = 8,
+    kSkyLight = 8,
+    kDimensionsPerBounce = 9,
 };
 constexpr int kMostAlwaysLights = 4;
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "accel/world.h"
+#include "shade/environment.h"
 #include "shade/lights.h"
 #include "shade/material.h"
 
@@ -13,6 +14,7 @@ enum Feature : uint32_t {
     kSmoothNormals = 2,
     kTransmission = 4,
     kExtendedEmitters = 8,  // lights with extent, and surfaces that emit
+    kEnvironment = 512,     // a picture of the world around
 };
 
 TRG_FN constexpr bool has(uint32_t features, Feature feature) {
@@ -68,7 +70,8 @@ struct SceneView {
     TextureSet textures;
     const Light* lights;
     EmitterView emitters;
-    Vec3 background;
+    Vec3 background;  // where there is no environment
+    EnvironmentView environment;
     CameraView camera;
 };
 

@@ -33,6 +33,22 @@ TRG_FN Vec3 gather_lights(const SceneView& scene, const Ray& ray, float t_end, f
     return sum;
 }
 
+/// What a ray that leaves the scene along `direction` (any length) sees of the world; `pdf` is the
+/// density of a bounce ray's direction, `depth` 0 for a camera ray.
+template <uint32_t F>
+TRG_FN Vec3 world_seen(const SceneView& scene, Vec3 direction, float pdf, int32_t depth) {
+    if constexpr (has(F, kEnvironment)) {
+        const EnvironmentView& sky = scene.environment;
+        if (!sky.pixels) return scene.background;
+        if (depth == 0 && !sky.seen_by_camera) return {0.0f, 0.0f, 0.0f};
+        const SkyPlace at = sky_place(sky, normalize(direction));
+        const float weight =
+            pdf > 0.0f && sky.sampled ? power_heuristic(pdf, pdf_sky(sky, at)) : 1.0f;
+        return eval_sky(sky, at) * weight;
+    }
+    return scene.background;
+}
+
 /// Emission of the surface met, weighted against the chance of sampling it as a light.
 template <uint32_t F>
 TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Ray& ray, float t,
@@ -118,7 +134,9 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
                                                                    hit.triangle >= 0 ? hit.t : kFar,
                                                                    state.pdf);
     if (hit.triangle < 0) {
-        result.radiance = result.radiance + state.throughput * scene.background;
+        result.radiance =
+            result.radiance +
+            state.throughput * world_seen<F>(scene, ray.direction, state.pdf, stage.depth);
         return;
     }
     if (stage.depth == 0) result.hit = true;

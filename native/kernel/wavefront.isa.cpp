@@ -20,16 +20,19 @@ void accumulate_light(PathQueues& queues, int32_t count) {
 /// True when rays after the last scattering could still find light.
 template <uint32_t F>
 bool last_ray_matters(const SceneView& scene) {
-    return has(F, kExtendedEmitters) || !is_black(scene.background);
+    return has(F, kExtendedEmitters) || has(F, kEnvironment) || !is_black(scene.background);
 }
 
-/// The rays after the last scattering when nothing but the background shines: any hit will do.
+/// The rays after the last scattering when nothing but the world shines: any hit will do.
+template <uint32_t F>
 void finish_in_background(const RenderView& view, PathQueues& queues, int32_t count) {
     intersect_any(*view.scene.world, queues.rays, queues.hidden, count);
     for (int32_t i = 0; i < count; ++i) {
         if (queues.hidden[i]) continue;
         PathResult& result = queues.results[queues.states[i].path];
-        result.radiance = result.radiance + queues.states[i].throughput * view.scene.background;
+        const Vec3 light =
+            world_seen<F>(view.scene, queues.rays[i].direction, queues.states[i].pdf, 1);
+        result.radiance = result.radiance + queues.states[i].throughput * light;
     }
 }
 
@@ -56,7 +59,7 @@ bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues
         if (cancelled.load(std::memory_order_relaxed)) return false;
         if (depth > 0) counts->bounce += living;
         if (depth > view.max_bounces && !has(F, kExtendedEmitters)) {
-            finish_in_background(view, queues, living);
+            finish_in_background<F>(view, queues, living);
             return true;
         }
         intersect_closest(world, queues.rays, queues.hits, living);
@@ -76,11 +79,13 @@ bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues
 constexpr uint32_t kPlain = kSmoothNormals;
 constexpr uint32_t kLamps = kSmoothNormals | kExtendedEmitters;
 constexpr uint32_t kTextured = kLamps | kTextures;
-constexpr uint32_t kFull = kTextured | kTransmission;
+constexpr uint32_t kOutdoor = kTextured | kEnvironment;
+constexpr uint32_t kFull = kOutdoor | kTransmission;
 
 const KernelSet kSets[] = {{"plain", kPlain, render_chunk<kPlain>},
                            {"lamps", kLamps, render_chunk<kLamps>},
                            {"textured", kTextured, render_chunk<kTextured>},
+                           {"outdoor", kOutdoor, render_chunk<kOutdoor>},
                            {"full", kFull, render_chunk<kFull>}};
 
 }  // namespace

@@ -1,4 +1,6 @@
 /// Methods of trg_native.Scene that take shading tables and start renders.
+#include <cmath>
+
 #include "py/buffer.h"
 #include "py/job_object.h"
 #include "py/scene_object.h"
@@ -63,6 +65,33 @@ PyObject* set_world_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         const char* const names[] = {"r", "g", "b", nullptr};
         parse_arguments(args, kwargs, "fff", names, &r, &g, &b);
         set_background(scene_to_change(self).tables, r, g, b);
+        return none();
+    });
+}
+
+PyObject* set_environment_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        PyObject *pixels, *rotation;
+        int seen_by_camera = 1;
+        const char* const names[] = {"pixels", "rotation", "seen_by_camera", nullptr};
+        parse_arguments(args, kwargs, "OO|p", names, &pixels, &rotation, &seen_by_camera);
+        Scene& scene = scene_to_change(self);
+        const Buffer rows = Buffer::of<double>(rotation, "rotation", {3, 3});
+        const double* m = rows.data<double>();
+        for (int k = 0; k < 9; ++k)
+            if (!std::isfinite(m[k])) throw ArgumentError("rotation: expected finite numbers");
+        Image image{};
+        copy_pixels(pixels, &image, &image.floats);
+        if (image.channels != 3) throw ArgumentError("pixels: expected 3 channels");
+        Environment environment;
+        environment.pixels = std::move(image.floats);
+        environment.width = image.width;
+        environment.height = image.height;
+        environment.axis_x = to_float(Vec3d{m[0], m[1], m[2]});
+        environment.axis_y = to_float(Vec3d{m[3], m[4], m[5]});
+        environment.axis_z = to_float(Vec3d{m[6], m[7], m[8]});
+        environment.seen_by_camera = seen_by_camera != 0;
+        set_environment(scene.tables, std::move(environment));
         return none();
     });
 }
@@ -165,6 +194,10 @@ PyMethodDef kSceneRenderMethods[] = {
      "set_lights(table): float32 (n, len(LIGHT_FIELDS))"},
     {"set_world", as_method(set_world_method), METH_VARARGS | METH_KEYWORDS,
      "set_world(r, g, b): radiance of the constant world"},
+    {"set_environment", as_method(set_environment_method), METH_VARARGS | METH_KEYWORDS,
+     "set_environment(pixels, rotation, seen_by_camera=True): an equirectangular world\n\n"
+     "pixels: float32 (h, w, 3) radiance, row 0 looks down; rotation float64 (3, 3), world to "
+     "picture."},
     {"set_camera", as_method(set_camera_method), METH_VARARGS | METH_KEYWORDS,
      "set_camera(kind, matrix, window, clip_start=1e-6, clip_end=1e30)\n\n"
      "kind 0 is perspective, 1 orthographic; matrix float64 (3, 4); window float64 (4,)."},

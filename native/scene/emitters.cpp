@@ -10,15 +10,9 @@ namespace trg {
 
 namespace {
 
-/// Cumulative shares of 2^32, the last one all of it.
 std::vector<uint32_t> cumulate(const std::vector<double>& weights) {
-    const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
-    std::vector<uint32_t> limits;
-    double sum = 0.0;
-    for (double weight : weights) {
-        sum += weight;
-        limits.push_back(static_cast<uint32_t>(std::min(sum / total * 4294967296.0, 4294967295.0)));
-    }
+    std::vector<uint32_t> limits(weights.size());
+    cumulate_shares(weights.data(), weights.size(), limits.data());
     return limits;
 }
 

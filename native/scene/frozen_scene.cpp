@@ -33,6 +33,7 @@ FrozenScene::FrozenScene(const Scene& scene) {
     view_.lights = scene.tables.lights.data();
     view_.emitters = view_emitters(emitters_);
     view_.background = scene.tables.background;
+    view_.environment = view_environment(scene.tables.environment);
     view_.camera = scene.tables.camera;
     features_ = find_features(scene);
 }
@@ -77,6 +78,7 @@ uint32_t FrozenScene::find_features(const Scene& scene) const {
         if (!a.normals.empty()) features |= kSmoothNormals;
     if (!emitters_.extended.empty() || !emitters_.triangles.empty() || emitters_.endless)
         features |= kExtendedEmitters;
+    if (!scene.tables.environment.pixels.empty()) features |= kEnvironment;
     return features;
 }
 

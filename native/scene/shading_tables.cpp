@@ -102,6 +102,16 @@ void set_background(ShadingTables& tables, float r, float g, float b) {
     tables.background = {r, g, b};
 }
 
+void set_environment(ShadingTables& tables, Environment environment) {
+    for (size_t k = 0; k < environment.pixels.size(); ++k)
+        if (!std::isfinite(environment.pixels[k]))
+            throw TableError("environment: row " +
+                             std::to_string(k / (3 * static_cast<size_t>(environment.width))) +
+                             " has a number that is not finite");
+    prepare_environment(&environment);
+    tables.environment = std::move(environment);
+}
+
 void set_camera(ShadingTables& tables, const CameraRequest& request) {
     if (request.kind != 0 && request.kind != 1)
         throw TableError("kind: " + std::to_string(request.kind) + ", expected 0 or 1");

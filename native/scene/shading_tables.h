@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/scene_view.h"
+#include "scene/environment.h"
 
 namespace trg {
 
@@ -38,6 +39,7 @@ struct ShadingTables {
     std::vector<Material> materials;
     std::vector<Light> lights;
     Vec3 background{0.0f, 0.0f, 0.0f};
+    Environment environment;
     CameraView camera{};
     bool has_camera = false;
 };
@@ -55,6 +57,9 @@ void set_materials(ShadingTables& tables, const Table& table);
 void set_textures(ShadingTables& tables, const Table& table);
 void set_lights(ShadingTables& tables, const Table& table);
 void set_background(ShadingTables& tables, float r, float g, float b);
+/// Takes the place of the background. `environment` has pixels, size, axes and visibility; throws
+/// TableError for pixels that are not finite.
+void set_environment(ShadingTables& tables, Environment environment);
 void set_camera(ShadingTables& tables, const CameraRequest& request);
 
 /// Float pixels marked sRGB are made linear once; returns the image's index.

@@ -7,7 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from trg_blender.engine.scene_arrays import Light, Material, RenderSettings, SceneArrays, Texture
+from trg_blender.engine.scene_arrays import Environment, Light, Material, RenderSettings, SceneArrays, Texture
 
 from .arrays import ball, box, checker, light, look_at, place, quad
 
@@ -189,6 +189,30 @@ def _shapes() -> SceneArrays:
     return scene
 
 
+def sky_picture(height: int = 8, sun: float = 60.0) -> np.ndarray:
+    """Radiances of a coarse sky: noise, and one bright texel where the sun is."""
+    pixels = np.random.default_rng(4).random((height, 2 * height, 3)).astype(np.float32)
+    pixels[height * 3 // 4, height // 2] = (sun, 0.9 * sun, 0.7 * sun)
+    return pixels
+
+
+def _environment() -> SceneArrays:
+    scene = studio(MATERIALS["plastic"])
+    scene.lights = []
+    turn = np.array([[0.8, -0.6, 0.0], [0.6, 0.8, 0.0], [0.0, 0.0, 1.0]])
+    tilt = np.array([[1.0, 0.0, 0.0], [0.0, 0.96, -0.28], [0.0, 0.28, 0.96]])
+    scene.environment = Environment(sky_picture(), turn @ tilt)
+    return scene
+
+
+def _environment_and_lights() -> SceneArrays:
+    scene = _environment()
+    scene.materials[1] = MATERIALS["glass"]
+    scene.lights = [KEY, LIGHTS["sun"]]
+    scene.environment.seen_by_camera = False
+    return scene
+
+
 GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "textured": _textured,
     "shapes": _shapes,
@@ -198,6 +222,8 @@ GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "orthographic_clipped": _orthographic,
     "all_lights": _all_lights,
     "many_lights": _many_lights,
+    "environment": _environment,
+    "environment_and_lights": _environment_and_lights,
 }
 
 

@@ -17,6 +17,7 @@ FEATURES = (
     "area_lights",
     "instances",
     "world",
+    "environment",
     "depth",
     "normal",
     "alpha",
@@ -32,6 +33,8 @@ def find_features(scene: SceneArrays, settings: RenderSettings) -> tuple[list[st
         present.add("instances")
     if any(channel != 0.0 for channel in scene.world):
         present.add("world")
+    if scene.environment is not None:
+        present.add("environment")
     if scene.transparent_film:
         present.add("alpha")
     present |= set(settings.passes)

@@ -37,6 +37,8 @@ def build_native_scene(
     result.set_materials(pack_table(scene.materials, MATERIAL_FIELDS))
     result.set_lights(pack_table(scene.lights, LIGHT_FIELDS))
     result.set_world(*(float(value) for value in scene.world))
+    if scene.environment is not None:
+        add_environment(result, scene)
     camera = scene.camera
     matrix = np.ascontiguousarray(camera.matrix, dtype=np.float64)
     window = np.array(camera.window, dtype=np.float64)
@@ -49,6 +51,17 @@ def expected_rays(scene: SceneArrays, settings: RenderSettings) -> float:
     surfaces = min(settings.max_bounces + 1, 4)
     per_sample = 1 + surfaces * (2 if scene.lights else 1)
     return float(settings.width) * settings.height * settings.samples * per_sample
+
+
+def add_environment(result: Any, scene: SceneArrays) -> None:
+    """A transparent film never shows the environment to the camera."""
+    environment = scene.environment
+    assert environment is not None
+    result.set_environment(
+        np.ascontiguousarray(environment.pixels, dtype=np.float32),
+        np.ascontiguousarray(environment.rotation, dtype=np.float64),
+        environment.seen_by_camera and not scene.transparent_film,
+    )
 
 
 def add_mesh(result: Any, mesh: MeshArrays) -> None:

@@ -39,7 +39,7 @@ def read_combined(job: PassSource, scene: SceneArrays, shape: tuple[int, int]) -
     """(h, w, 4) with associated alpha: a transparent film does not show the world itself."""
     pixels = np.zeros((*shape, 4), dtype=np.float32)
     job.combined(pixels)
-    if scene.transparent_film:
+    if scene.transparent_film and scene.environment is None:
         seen_world = (1.0 - pixels[..., 3:]) * np.asarray(scene.world, dtype=np.float32)
         pixels[..., :3] = np.maximum(pixels[..., :3] - seen_world, 0.0)
     return pixels

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from .reference_bsdf import Bsdf, build_bsdf, evaluate_bsdf, sample_bsdf
 from .reference_camera import CameraRays
 from .reference_emission import Glow, build_glow, pdf_glow, sample_glow
+from .reference_environment import Sky, build_sky, evaluate_sky, pdf_sky, sample_sky
 from .reference_lights import LightSample, hit_light, sample_light
 from .reference_math import mis_weight
 from .reference_scene import FAR, MISS, Hits, Rays, TracedScene, build_traced_scene
@@ -32,6 +33,7 @@ class World:
     materials: MaterialTable
     glow: Glow | None
     color: Float64
+    sky: Sky | None = None
 
 
 @dataclass(slots=True)
@@ -70,7 +72,8 @@ def build_world(scene: SceneArrays) -> World:
     traced = build_traced_scene(scene)
     materials = build_material_table(scene)
     glow = build_glow(traced.triangles, materials)
-    return World(scene, traced, materials, glow, np.asarray(scene.world, dtype=np.float64))
+    sky = None if scene.environment is None else build_sky(scene.environment)
+    return World(scene, traced, materials, glow, np.asarray(scene.world, dtype=np.float64), sky)
 
 
 def trace_paths(world: World, camera: CameraRays, max_bounces: int, rng: np.random.Generator) -> Estimate:
@@ -85,7 +88,7 @@ def trace_paths(world: World, camera: CameraRays, max_bounces: int, rng: np.rand
         else:
             estimate.rays.bounce += len(paths.index)
             collect_lights(world, paths, hits, estimate)
-        collect_world(world, paths, hits, estimate)
+        collect_world(world, paths, hits, estimate, segment)
         paths, hits = keep(paths, hits, hits.triangle != MISS)
         if len(paths.index) == 0:
             break
@@ -110,9 +113,20 @@ def keep(paths: Paths, hits: Hits, rows: NDArray[np.bool_]) -> tuple[Paths, Hits
     return kept, Hits(hits.triangle[rows], hits.t[rows], hits.u[rows], hits.v[rows])
 
 
-def collect_world(world: World, paths: Paths, hits: Hits, estimate: Estimate) -> None:
-    """Adds the world where rays leave the scene: only bounces find it, so nothing is to be shared."""
+def collect_world(world: World, paths: Paths, hits: Hits, estimate: Estimate, segment: int) -> None:
+    """Adds the world where rays leave the scene. A constant one is found by bounces only, an
+    environment shares them with its light samples; the camera need not see it."""
     missed = hits.triangle == MISS
+    if world.sky is not None:
+        environment = world.scene.environment
+        assert environment is not None
+        if segment == 0 and (world.scene.transparent_film or not environment.seen_by_camera):
+            return
+        direction = paths.rays.direction[missed]
+        weight = mis_weight(paths.pdf[missed], pdf_sky(world.sky, direction))[:, None]
+        light = evaluate_sky(world.sky, direction) * weight
+        estimate.radiance[paths.index[missed]] += paths.throughput[missed] * light
+        return
     estimate.radiance[paths.index[missed]] += paths.throughput[missed] * world.color
 
 
@@ -137,8 +151,11 @@ def collect_emission(world: World, paths: Paths, hits: Hits, surface: Surface, e
 def gather_direct_light(
     world: World, paths: Paths, bsdf: Bsdf, rng: np.random.Generator, estimate: Estimate
 ) -> None:
-    """Next-event estimation: one sample of every light and one of all glowing triangles together."""
+    """Next-event estimation: one sample of every light, of the environment, and one of all glowing
+    triangles together."""
     position = bsdf.surface.position
+    if world.sky is not None:
+        add_light_sample(world, paths, bsdf, sample_sky(world.sky, len(position), rng), estimate)
     for light in world.scene.lights:
         add_light_sample(world, paths, bsdf, sample_light(light, position, rng), estimate)
     if world.glow is not None:

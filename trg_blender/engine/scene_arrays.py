@@ -163,6 +163,19 @@ class Camera:
 
 
 @dataclass(slots=True)
+class Environment:
+    """A world whose radiance depends on the direction: an equirectangular picture."""
+
+    pixels: Float32
+    """(h, w, 3) radiance; row 0 looks down, column w / 2 along +x of the picture, u falls towards +y"""
+    rotation: Float64 = field(default_factory=lambda: np.eye(3))
+    """(3, 3) orthogonal, direction in the world -> direction in the picture"""
+    seen_by_camera: bool = True
+    """False: camera rays that leave the scene see black"""
+    origin: str = ""
+
+
+@dataclass(slots=True)
 class SceneArrays:
     camera: Camera
     meshes: list[MeshArrays] = field(default_factory=list)
@@ -172,6 +185,8 @@ class SceneArrays:
     textures: list[Texture] = field(default_factory=list)
     lights: list[Light] = field(default_factory=list)
     world: Color = (0.0, 0.0, 0.0)
+    environment: Environment | None = None
+    """takes the place of `world`"""
     transparent_film: bool = False
     warnings: list[str] = field(default_factory=list)
 

@@ -14,6 +14,7 @@ from .scene_arrays import (
     SHAPES,
     WRAP_MODES,
     Camera,
+    Environment,
     InstanceArrays,
     MeshArrays,
     RenderSettings,
@@ -49,6 +50,7 @@ def check_scene(scene: SceneArrays) -> list[str]:
     for instance in scene.instances:
         check_instance(scene, instance)
     check_tables(scene)
+    check_environment(scene.environment)
     return list(non_finite_warnings(scene.meshes))
 
 
@@ -60,6 +62,20 @@ def check_camera(camera: Camera) -> None:
         raise SceneError("the camera's matrix is not finite")
     if not np.isfinite(camera.window).all() or left == right or bottom == top:
         raise SceneError(f"the camera sees nothing: its window is {camera.window}")
+
+
+def check_environment(environment: Environment | None) -> None:
+    if environment is None:
+        return
+    name = f"environment {environment.origin!r}"
+    shape = environment.pixels.shape
+    if len(shape) != 3 or 0 in shape or shape[2] != 3:
+        raise SceneError(f"{name}: its pixels have the shape {shape}, expected (height, width, 3)")
+    if not np.isfinite(environment.pixels).all():
+        raise SceneError(f"{name}: a pixel is not finite")
+    turned = np.asarray(environment.rotation, dtype=np.float64)
+    if turned.shape != (3, 3) or not np.allclose(turned @ turned.T, np.eye(3), atol=1e-5):
+        raise SceneError(f"{name}: its rotation is none")
 
 
 def check_mesh(mesh: MeshArrays) -> None:

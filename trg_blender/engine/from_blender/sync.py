@@ -43,9 +43,11 @@ class SceneReader:
         camera = read_camera(scene, depsgraph, size, warnings)
         found = find_objects(depsgraph, warnings)
         table = MaterialTable(warnings)
+        world = read_world(scene.world, warnings)
         arrays = SceneArrays(
             camera=camera,
-            world=read_world(scene.world, warnings),
+            world=world.color,
+            environment=world.environment,
             transparent_film=scene.render.film_transparent,
         )
         _Meshes(arrays, table, self.fast, warnings).add_all(found)

@@ -1,40 +1,68 @@
-"""Blender's world -> one constant radiance."""
+"""Blender's world -> one constant radiance, or an equirectangular picture."""
 
 from __future__ import annotations
 
-import bpy
+from dataclasses import dataclass
 
-from ..scene_arrays import Color
+import bpy
+import numpy as np
+from mathutils import Euler
+
+from ..scene_arrays import Color, Environment, Float32, Float64
 from .sockets import active_tree, as_color, as_number, constant_of, feeding_socket
 
+BLACK: Color = (0.0, 0.0, 0.0)
+SKY_MEAN: Color = (0.24, 0.36, 0.55)
+"""Stands in for a Sky Texture, which Blender computes for its own engines only: about the mean over the
+upper half of the default one without its disc."""
+LARGEST_RADIANCE = 1e30
 
-def read_world(world: bpy.types.World | None, warnings: list[str]) -> Color:
-    """Radiance of the background: Background node colour times strength; black without a world."""
+
+@dataclass(frozen=True, slots=True)
+class WorldLight:
+    """What surrounds a scene."""
+
+    color: Color
+    """constant radiance, where there is no environment"""
+    environment: Environment | None = None
+
+
+def read_world(world: bpy.types.World | None, warnings: list[str]) -> WorldLight:
+    """Light of the background: Background node colour times strength; black without a world."""
     if world is None:
-        return (0.0, 0.0, 0.0)
+        return WorldLight(BLACK)
     tree = active_tree(world)
     if tree is None:
-        return as_color(world.color)
+        return WorldLight(as_color(world.color))
     output = tree.get_output_node("CYCLES")
     if output is None:
-        return (0.0, 0.0, 0.0)
+        return WorldLight(BLACK)
     if output.inputs["Volume"].is_linked:
         warnings.append(f"world {world.name!r}: its volume is not rendered")
     source = feeding_socket(output.inputs["Surface"])
     if source is None:
-        return (0.0, 0.0, 0.0)
+        return WorldLight(BLACK)
     if source.node.type not in ("BACKGROUND", "EMISSION"):
         warnings.append(f"world {world.name!r}: node {source.node.name!r} is not supported, black is used")
-        return (0.0, 0.0, 0.0)
-    red, green, blue = as_color(_constant(source.node.inputs["Color"], world.name, warnings))
+        return WorldLight(BLACK)
     strength = as_number(_constant(source.node.inputs["Strength"], world.name, warnings))
-    return (red * strength, green * strength, blue * strength)
+    picture = feeding_socket(source.node.inputs["Color"])
+    if picture is not None and picture.node.type == "TEX_ENVIRONMENT":
+        return _read_environment(world, picture.node, strength, warnings)
+    red, green, blue = as_color(_constant(source.node.inputs["Color"], world.name, warnings))
+    return WorldLight((red * strength, green * strength, blue * strength))
 
 
 def _constant(socket: bpy.types.NodeSocket, name: str, warnings: list[str]) -> object:
     source = feeding_socket(socket)
     if source is None:
         return socket.default_value
+    if source.node.type == "TEX_SKY":
+        warnings.append(
+            f"world {name!r}: node {source.node.name!r} (Sky Texture) is rendered as one even colour; "
+            f"bake it to an image for an Environment Texture node"
+        )
+        return SKY_MEAN
     value = constant_of(source)
     if value is None:
         warnings.append(
@@ -43,3 +71,68 @@ def _constant(socket: bpy.types.NodeSocket, name: str, warnings: list[str]) -> o
         )
         return socket.default_value
     return value
+
+
+def _read_environment(
+    world: bpy.types.World, node: bpy.types.Node, strength: float, warnings: list[str]
+) -> WorldLight:
+    """An Environment Texture node; the node's magenta where its image is missing, as in Cycles."""
+    where = f"world {world.name!r}: node {node.name!r}"
+    pixels = _radiance(node.image)
+    if pixels is None:
+        warnings.append(f"{where}: it has no image that can be read; shown in magenta")
+        return WorldLight((strength, 0.0, strength))
+    if node.projection != "EQUIRECTANGULAR":
+        warnings.append(f"{where}: projection {node.projection} is rendered as equirectangular")
+    if node.interpolation != "Linear":
+        warnings.append(f"{where}: interpolation {node.interpolation} is rendered as linear")
+    if not np.isfinite(pixels).all():
+        warnings.append(f"{where}: pixels that are not finite are rendered black")
+        pixels = np.where(np.isfinite(pixels), pixels, 0.0)
+    with np.errstate(over="ignore"):
+        scaled = np.clip(pixels * np.float32(strength), -LARGEST_RADIANCE, LARGEST_RADIANCE)
+    seen = bool(world.cycles_visibility.camera) if hasattr(world, "cycles_visibility") else True
+    rotation = _rotation(node, where, warnings)
+    return WorldLight(BLACK, Environment(scaled.astype(np.float32), rotation, seen, node.image.name))
+
+
+def _radiance(image: bpy.types.Image | None) -> Float32 | None:
+    """(h, w, 3) linear pixels; None when there are none."""
+    if image is None or not image.size[0] or not image.size[1] or not image.channels:
+        return None
+    width, height = image.size
+    flat = np.empty(width * height * image.channels, np.float32)
+    image.pixels.foreach_get(flat)
+    pixels = flat.reshape(height, width, image.channels)
+    pixels = pixels[..., :3] if image.channels >= 3 else np.repeat(pixels[..., :1], 3, axis=2)
+    if image.is_float or image.colorspace_settings.is_data or "Linear" in image.colorspace_settings.name:
+        return pixels
+    low = pixels / 12.92
+    return np.where(pixels <= 0.04045, low, ((pixels + 0.055) / 1.055) ** 2.4).astype(np.float32)
+
+
+def _rotation(node: bpy.types.Node, where: str, warnings: list[str]) -> Float64:
+    """(3, 3) what Mapping nodes before `node` do to a direction, as far as it is a rotation."""
+    rotation = np.eye(3)
+    source = feeding_socket(node.inputs["Vector"])
+    while source is not None and source.node.type == "MAPPING":
+        rotation = rotation @ _mapping_rotation(source.node, where, warnings)
+        source = feeding_socket(source.node.inputs["Vector"])
+    known = ("Generated", "Object", "Position")
+    if source is not None and source.name not in known:
+        warnings.append(f"{where}: {source.node.name!r} is read as the direction")
+    return rotation
+
+
+def _mapping_rotation(node: bpy.types.Node, where: str, warnings: list[str]) -> Float64:
+    values = {}
+    for name in ("Location", "Rotation", "Scale"):
+        socket = node.inputs.get(name)
+        values[name] = None if socket is None else tuple(socket.default_value)
+        if socket is not None and feeding_socket(socket) is not None:
+            warnings.append(f"{where}: a link into {name} of {node.name!r} is not supported")
+    moved = node.vector_type in ("POINT", "TEXTURE") and any(values["Location"] or ())
+    if moved or any(abs(abs(s) - 1.0) > 1e-6 or s < 0.0 for s in values["Scale"] or ()):
+        warnings.append(f"{where}: location and scale of {node.name!r} are not rendered, rotation is")
+    turn = np.array(Euler(values["Rotation"] or (0.0, 0.0, 0.0)).to_matrix(), dtype=np.float64)
+    return turn.T if node.vector_type == "TEXTURE" else turn
