@@ -5,6 +5,7 @@ The default is written as a constant, so that a host knows all parameters withou
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -17,6 +18,8 @@ ParameterValue = float | str | tuple[float, float, float]
 """Of a num or flag, of a str, of a vec3 or colour."""
 TYPES = ("num", "flag", "vec3", "colour", "str")
 _USAGES = {"range": ("num", "range(low, high[, step])"), "choice": ("str", 'choice("a", "b", ...)')}
+MAX_TURNS = 2.0**53
+"""Steps in a range: beyond, not every one has a number of its own."""
 _STARS = re.compile(r"^\s*/?\*+|\*+/\s*$")
 
 
@@ -82,8 +85,11 @@ class Export:
 def _finite(value: object) -> float | None:
     if not isinstance(value, int | float):
         return None
-    number = float(value) if abs(value) < 1e308 else 1e999
-    return number if number - number == 0.0 else None
+    try:
+        number = float(value)
+    except OverflowError:  # a whole number of Python's
+        return None
+    return number if math.isfinite(number) else None
 
 
 def parameter_value(export: Export, given: Mapping[str, object]) -> ParameterValue:
@@ -172,7 +178,8 @@ def _with_range(export: Export, values: list[ParameterValue | None]) -> Export |
     if len(numbers) != len(values) or len(values) not in (2, 3) or numbers[0] >= numbers[1]:
         return None
     step = numbers[2] if len(numbers) == 3 else None
-    if step is not None and not 0.0 < step <= numbers[1] - numbers[0]:
+    reach = numbers[1] - numbers[0]
+    if math.isinf(reach) or step is not None and not (0.0 < step <= reach and reach / step <= MAX_TURNS):
         return None
     return Export(
         export.name, export.type, export.default, export.span, numbers[0], numbers[1], step, doc=export.doc

@@ -22,6 +22,10 @@ MESSAGES: dict[str, tuple[str, str]] = {
         "the program is longer than {limit} characters",
         "программа длиннее {limit} символов",
     ),
+    "E110": (
+        "a letter has at most {limit} combining marks",
+        "у буквы не больше {limit} надстрочных и подстрочных знаков",
+    ),
     "E201": ("expected '{text}'", "здесь нужен '{text}'"),
     "E202": ("')' has no matching '('", "у ')' нет парной '('"),
     "E203": ("expected a name", "здесь нужно имя"),

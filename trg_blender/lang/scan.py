@@ -16,6 +16,8 @@ KEYWORDS = frozenset(
 RESERVED_WORDS = {"true": "write_1", "false": "write_0"}
 MAX_NUMBER_LENGTH = 64
 MAX_STRING_LENGTH = 65_536
+MAX_MARKS = 30
+"""Combining marks in a row: what UAX #15 calls stream-safe; NFC takes quadratic time over them."""
 ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "0": "\0", '"': '"', "\\": "\\"}
 
 # The string and comment alternatives are unrolled: the short forms need a backtracking entry for
@@ -34,6 +36,7 @@ _TOKEN = re.compile(
 )
 _QUOTED = re.compile(r"'[^'\n]*'?")
 _REST_OF_NAME = re.compile(r"[\w\u0300-\u036f]+")
+_MANY_MARKS = re.compile(rf"[\u0300-\u036f]{{{MAX_MARKS + 1},}}")
 _ESCAPE = re.compile(r"\\(.)")
 _CHARACTER_HINTS = {
     "'": "double_quotes",
@@ -93,7 +96,7 @@ class _Scanner:
         return end
 
     def _take_name(self, text: str, start: int, end: int) -> None:
-        name = text if text.isascii() else unicodedata.normalize("NFC", text)
+        name = text if text.isascii() else self._composed(text, start)
         kind = "keyword" if name in KEYWORDS else "name"
         if not (name[0].isalpha() or name[0] == "_"):  # a sign such as a raised 2 is a \\w, but no letter
             self._error("E100", start, start + 1, text=text[0])
@@ -101,6 +104,13 @@ class _Scanner:
             fix = (start, end, "1" if name == "true" else "0")
             self._error("E107", start, end, RESERVED_WORDS[name], fix, name=name)
         self.tokens.append(Token(kind, name, name, self._span(start, end)))
+
+    def _composed(self, text: str, start: int) -> str:
+        """The name in NFC; too many marks on one letter are an error and go."""
+        for found in _MANY_MARKS.finditer(text):
+            first, last = start + found.start(), start + found.end()
+            self._error("E110", first, last, None, limit=MAX_MARKS)
+        return unicodedata.normalize("NFC", _MANY_MARKS.sub("", text))
 
     def _take_number(self, text: str, start: int, end: int) -> int:
         rest = _REST_OF_NAME.match(self.source.text, end)

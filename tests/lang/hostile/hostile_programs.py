@@ -103,6 +103,17 @@ ENDLESS: dict[str, str] = {
     "much output": _LONG + "while (1) print(s, s, s, s, s, s, s, s);",
     "wide output": _LONG + "while (1) print(" + ", ".join(["s"] * 255) + ");",
     "printing large objects": "o = object(); " + _FIELDS + _LONG + "o.s = s; while (1) print(o, o, o, o);",
+    # Found or feared later.
+    "a list in itself printed": "l = []; for (i = 0; i < 90; i++) l.append(l); while (1) print(l, l, l, l);",
+    "overloads that build on each other": "a = object(); a.operator+ = function(x, y) { r = object(); r.operator+ = x.operator+; r.o = x; return r; }; while (1) a = a + 1;",
+    "equality in a switch in equality": "a = object(); a.operator== = function(x, y) { switch (x) { case y: return 1; } }; switch (a) { case 1: ; }",
+    "defaults that nest lists": "f = function(" + ", ".join(["a0 = 1"] + [f"a{i} = [a{i - 1}, a{i - 1}]" for i in range(1, 200)]) + ") { return a199; }; while (1) f();",
+    "inserting in front": "l = []; while (1) l.insert(0, 1);",
+    "removing in front": "l = []; for (i = 0; i < 900000; i++) l.append(i); while (1) { l.remove(0); l.append(1); }",
+    "a method handed to itself": "l = []; f = l.append; while (1) f(f);",
+    "copies of a ring": "o = object(); o.o = o; o.l = [o, o]; while (1) { o = copy(o); o.l = copy(o.l); o.l.append(o); if (len(o.l) > 100000) o.l = []; }",
+    "long names of shapes": _LONG + 'while (1) sphere(vec3(0), 1).Name(s + "");',
+    "a long string joined to nothing": _LONG + 'while (1) t = s + "";',
 }  # fmt: skip
 
 TEXTS: dict[str, str] = {
@@ -153,4 +164,18 @@ TEXTS: dict[str, str] = {
     "line ends": "\r\n\u2028\u2029\x0b\x0c" * 1000 + "x = 1;",
     "an include of itself": 'include("main.trg");',
     "an include of a device": 'include("/dev/zero"); include("stl/../../x"); include("con");',
+    "marks of two classes": "a" + "\u0323\u0307" * 100_000 + " = 1;",
+    "letters that grow when normalised": "\ufb2c" * 80_000 + " = 1;",
+    "invisible characters": "a\u200b = 1; \u200d\u200c = 2; x\ufe0f = 1;",
+    "comments in slashes": "/*/" * 80_000,
+    "dots": "x = " + "." * 200_000,
+    "equals signs": "x " + "=" * 200_000 + " 1;",
+    "escapes that are none": 'x = "' + "\\q" * 100_000 + '";',
+    "numbers that run into each other": "x = " + "1." * 100_000 + ";",
+    "ranges beyond numbers": "export a = 0 ~ range(-1e308, 1e308, 1e-300); export b = 1e308 ~ range(0, 1e308, 1);",
+    "many exports": "".join(f"export a{i} = {i};" for i in range(12_000)),
+    "many includes": 'include("a");' * 19_000,
+    "a list in a list in a list": "l = []; for (i = 0; i < 300000; i++) l = [l]; print(l); l = 0;",
+    "an object in an object": "o = object(); for (i = 0; i < 300000; i++) { n = object(); n.o = o; o = n; } o = 0; n = 0;",
+    "numbers at the end of numbers": "x = 1e308; x = mth::pow(-x, 3) + mth::mix(x, -x, 0.5); mth::noise(vec3(1e300)); mth::sin(1e308); mth::rand(-1e308, 1e308); mth::normalize(vec3(1e308));",
 }  # fmt: skip

@@ -14,6 +14,9 @@ import bpy
 from ... import lang
 
 
+MAX_INTEGER = 2.0**31 - 1.0
+
+
 def offer_parameters(scene: bpy.types.Scene, program: lang.Program) -> None:
     """Give the scene a property for each export. A value that is there and fits stays; others go."""
     stored = _stored(scene)
@@ -71,8 +74,10 @@ def _stored(scene: bpy.types.Scene) -> Any:
 
 
 def _is_whole(export: lang.Export) -> bool:
-    """Whether a num steps through whole numbers."""
-    return export.step is not None and export.step.is_integer() and export.low.is_integer()
+    """Whether a num steps through whole numbers that Blender's integers can hold."""
+    if export.step is None or max(abs(export.low), abs(export.high)) > MAX_INTEGER:
+        return False
+    return export.step.is_integer() and export.low.is_integer()
 
 
 def _to_property(export: lang.Export, value: Any) -> Any:

@@ -12,6 +12,7 @@ from ..vector import Vec3
 _PCG_MULTIPLIER = 6364136223846793005
 _MASK64 = (1 << 64) - 1
 _MASK32 = (1 << 32) - 1
+_SMALLEST_LENGTH, _GREATEST_LENGTH = 1e-300, 1e300
 
 
 class Pcg32:
@@ -38,13 +39,16 @@ def _pow(rt: Runtime, base: float, exponent: float) -> float:
     try:
         return math.pow(base, exponent)
     except OverflowError:
-        return math.inf
+        return -math.inf if base < 0.0 and exponent % 2.0 == 1.0 else math.inf
     except ValueError:
         raise TrgError("E508", name="mth::pow", reason="the result is not a real number") from None
 
 
 def _exp(x: float) -> float:
-    return math.exp(x) if x < 709.0 else math.inf
+    try:
+        return math.exp(x)
+    except OverflowError:
+        return math.inf
 
 
 def _sign(x: float) -> float:
@@ -73,6 +77,10 @@ def _normalize(rt: Runtime, v: Vec3) -> Vec3:
     length = math.hypot(*v)
     if length == 0.0:
         raise TrgError("E508", name="mth::normalize", reason="the vector has no length")
+    if not _SMALLEST_LENGTH <= length <= _GREATEST_LENGTH:  # the length itself is inexact there
+        largest = max(map(abs, v))
+        v = Vec3.of(v[0] / largest, v[1] / largest, v[2] / largest)
+        length = math.hypot(*v)
     return Vec3.of(v[0] / length, v[1] / length, v[2] / length)
 
 
@@ -108,7 +116,12 @@ def _noise(rt: Runtime, p: object) -> float:
 
 
 def _rand(rt: Runtime, low: float, high: float) -> float:
-    return low + (high - low) * (rt.random.next() / 4294967296.0)
+    share = rt.random.next() / 4294967296.0
+    reach = high - low
+    if math.isinf(reach):
+        return low * (1.0 - share) + high * share
+    number = low + reach * share
+    return math.nextafter(high, low) if number == high != low else number  # rounded up to the end
 
 
 HOST.constant("mth::PI", math.pi, "The circle's circumference over its diameter.")
