@@ -46,6 +46,9 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
       work_count_(count_passes(request.samples) * film_.tile_count()),
       start_(Clock::now()),
       end_(start_) {
+    const CameraView& camera = view_.scene.camera;
+    view_.scene.pixel_spread =
+        std::fabs(camera.right - camera.left) / static_cast<float>(request.width);
     const int threads =
         static_cast<int>(std::min<int64_t>(resolve_threads(request.threads), film_.tile_count()));
     const EmitterView& emitters = view_.scene.emitters;

@@ -1,8 +1,8 @@
 /// Next-event estimation: shadow rays for the lights that always get one and for one of the pool.
 #pragma once
 
+#include "kernel/look_up.h"
 #include "kernel/path_queues.h"
-#include "kernel/shape_surface.h"
 #include "shade/bsdf.h"
 
 namespace trg {
@@ -25,13 +25,15 @@ struct ShadowQueue {
     int32_t count;
 };
 
-/// Emission of `m` at texture coordinates (u, v).
+/// Emission of the surface `s` towards `wo`.
 template <uint32_t F>
-TRG_FN Vec3 eval_emission(const SceneView& scene, const Material& m, float u, float v) {
+TRG_FN Vec3 eval_emission(const SceneView& scene, const Surface& s, Vec3 wo) {
+    const Material& m = scene.materials[s.material];
     if constexpr (has(F, kTextures))
-        if (m.emission_texture >= 0)
-            return m.emission *
-                   eval_texture(scene.textures, scene.textures.textures[m.emission_texture], u, v);
+        if (m.emission_texture >= 0) {
+            LookUp look{scene, s, wo, false, {}};
+            return m.emission * look_up<F>(&look, m.emission_texture);
+        }
     return m.emission;
 }
 
@@ -91,7 +93,7 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v, uint32_
     if (!(d2 > 0.0f) || !(cosine > 0.0f)) return;
     const float pdf = e.triangle_density * s.sampling * m.emission_weight * d2 / cosine;
     const BsdfValue f = eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, wi));
-    const Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, m, s.u, s.v) *
+    const Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, s, -wi) *
                        (power_heuristic(pdf, f.pdf) / pdf);
     if (is_black(light)) return;
     const Vec3 origin = ray_origin(v.surface, v.ng, wi);

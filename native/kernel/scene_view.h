@@ -5,6 +5,7 @@
 #include "shade/environment.h"
 #include "shade/lights.h"
 #include "shade/material.h"
+#include "shade/texture_set.h"
 
 namespace trg {
 
@@ -15,6 +16,7 @@ enum Feature : uint32_t {
     kTransmission = 4,
     kExtendedEmitters = 8,  // lights with extent, and surfaces that emit
     kEnvironment = 512,     // a picture of the world around
+    kPrograms = 16,         // textures that are programs, and normals that they bend
 };
 
 TRG_FN constexpr bool has(uint32_t features, Feature feature) {
@@ -68,11 +70,14 @@ struct SceneView {
     const int32_t* slot_count;      // one an instance; 0: material 0
     const Material* materials;
     TextureSet textures;
+    const TextureMesh* texture_meshes;  // one a mesh
+    const float* randoms;               // one an instance, or null
     const Light* lights;
     EmitterView emitters;
     Vec3 background;  // where there is no environment
     EnvironmentView environment;
     CameraView camera;
+    float pixel_spread;  // a pixel's side, at distance 1 where the camera is perspective
 };
 
 }  // namespace trg

@@ -54,7 +54,7 @@ template <uint32_t F>
 TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Ray& ray, float t,
                           float pdf) {
     const Material& m = scene.materials[s.material];
-    const Vec3 light = eval_emission<F>(scene, m, s.u, s.v);
+    const Vec3 light = eval_emission<F>(scene, s, -normalize(ray.direction));
     if (!(pdf > 0.0f) || !(scene.emitters.triangle_density > 0.0f)) return light;
     const float cosine = std::fabs(dot(s.outside, ray.direction));
     if (!(cosine > 0.0f)) return light;
@@ -64,37 +64,50 @@ TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Ray& r
 
 /// The material at the point, its textures looked up.
 template <uint32_t F>
-TRG_FN Material material_at(const SceneView& scene, const Surface& s) {
-    Material m = scene.materials[s.material];
+TRG_FN Material material_at(LookUp* look) {
+    Material m = look->scene.materials[look->surface.material];
     if constexpr (has(F, kTextures)) {
-        const TextureSet& set = scene.textures;
-        if (m.base_texture >= 0) m.base = eval_texture(set, set.textures[m.base_texture], s.u, s.v);
+        if (m.base_texture >= 0) m.base = look_up<F>(look, m.base_texture);
         if (m.roughness_texture >= 0)
-            m.roughness = clamp01(eval_texture(set, set.textures[m.roughness_texture], s.u, s.v).x);
-        if (m.metallic_texture >= 0)
-            m.metallic = clamp01(eval_texture(set, set.textures[m.metallic_texture], s.u, s.v).x);
+            m.roughness = clamp01(look_up<F>(look, m.roughness_texture).x);
+        if (m.metallic_texture >= 0) m.metallic = clamp01(look_up<F>(look, m.metallic_texture).x);
         m.base = {clamp01(m.base.x), clamp01(m.base.y), clamp01(m.base.z)};
     }
     return m;
 }
 
-/// Normals and mixture at the surface that `hit` names, seen along `wo`; false when it scatters
-/// nothing. `normal` receives the shading normal turned to the viewer.
+/// The shading normal that the material's normal texture asks for, on the viewer's side, where it
+/// asks for one that the viewer can see; else `normal`.
 template <uint32_t F>
-TRG_FN bool make_vertex(const SceneView& scene, const Hit& hit, Vec3 wo, Vertex* v, Vec3* normal) {
+TRG_FN Vec3 bent_normal(LookUp* look, Vec3 normal) {
+    if constexpr (has(F, kPrograms)) {
+        const int32_t texture = look->scene.materials[look->surface.material].normal_texture;
+        if (texture < 0) return normal;
+        const Vec3 bent = normalize_safe(look_up<F>(look, texture));
+        if (dot(look->wo, bent) > 1e-4f) return bent;
+    }
+    return normal;
+}
+
+/// Normals and mixture at the surface in `v`, seen along `wo`; false when it scatters nothing.
+/// `normal` receives the shading normal turned to the viewer.
+template <uint32_t F>
+TRG_FN bool make_vertex(const SceneView& scene, Vec3 wo, Vertex* v, Vec3* normal) {
     const Surface& s = v->surface;
     const float facing = dot(s.outside, wo);
     v->ng = facing < 0.0f ? -s.outside : s.outside;
     *normal = v->ng;
     if constexpr (has(F, kSmoothNormals)) {
-        const Vec3 smooth = smooth_normal(scene, hit);
+        const Vec3 smooth = smooth_normal(scene, s);
         const Vec3 turned = facing < 0.0f ? -smooth : smooth;
         if (dot(wo, turned) > 1e-4f) *normal = turned;
     }
+    LookUp look{scene, s, wo, false, {}};
+    *normal = bent_normal<F>(&look, *normal);
     if (!(dot(wo, *normal) > 0.0f)) return false;
     v->frame = make_frame(*normal);
     const View view{to_local(v->frame, wo), to_local(v->frame, v->ng), facing >= 0.0f};
-    return make_bsdf<has(F, kTransmission)>(material_at<F>(scene, s), view, &v->bsdf);
+    return make_bsdf<has(F, kTransmission)>(material_at<F>(&look), view, &v->bsdf);
 }
 
 /// Draws the next direction and keeps the path if it survives roulette.
@@ -149,7 +162,7 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
                 state.throughput * emission_seen<F>(scene, v.surface, ray, hit.t, state.pdf);
     if (stage.depth > stage.view.max_bounces) return;
     Vec3 normal;
-    const bool scatters = make_vertex<F>(scene, hit, -normalize(ray.direction), &v, &normal);
+    const bool scatters = make_vertex<F>(scene, -normalize(ray.direction), &v, &normal);
     if (stage.depth == 0) result.normal = normal;
     if (!scatters) return;
     v.throughput = state.throughput;

@@ -52,7 +52,9 @@ TRG_FN Surface make_shape_surface(const SceneView& scene, int32_t number, const 
     s.position = to_float(point_out_of(instance.object_to_world, at.local));
     s.outside = to_float(n * (1.0 / std::sqrt(dot(n, n))));
     s.error = shape_offset(instance, s.position, s.outside);
-    s.material = material_of(scene, {number, 0});
+    s.at = {number, 0};
+    s.b1 = s.b2 = 0.0f;
+    s.material = material_of(scene, s.at);
     s.u = has(F, kTextures) ? at.u : 0.0f;
     s.v = has(F, kTextures) ? at.v : 0.0f;
     s.sampling = shape == Shape::plane ? 0.0f : 1.0f;

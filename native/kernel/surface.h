@@ -12,6 +12,8 @@ struct Surface {
     float u, v;      // texture coordinates
     float sampling;  // chance of sampling this point for its light, against an even choice by area
     int32_t material;
+    EmissiveTriangle at;  // where this is
+    float b1, b2;         // barycentrics there
 };
 
 struct Corners {
@@ -99,6 +101,9 @@ TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, 
     s.outside = normalize_safe(cross(e1 * scale, e2 * (1.0f / size)));
     s.error = offset_bound(instance, c, s.position, s.outside);
     s.material = material_of(scene, at);
+    s.at = at;
+    s.b1 = b1;
+    s.b2 = b2;
     s.sampling = 1.0f;
     s.u = s.v = 0.0f;
     if (has(F, kTextures) && mesh.uvs) {
@@ -112,14 +117,14 @@ TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, 
 
 /// The interpolated corner normal in world space, on the side of `outside`'s winding; null where
 /// the mesh has none or where it is no direction.
-TRG_FN Vec3 smooth_normal(const SceneView& scene, const Hit& hit) {
-    const Instance& instance = scene.instances[hit.instance];
+TRG_FN Vec3 smooth_normal(const SceneView& scene, const Surface& s) {
+    const Instance& instance = scene.instances[s.at.instance];
     const float* corner = scene.meshes[instance.mesh].normals;
     if (!corner) return {0.0f, 0.0f, 0.0f};
-    corner += static_cast<int64_t>(hit.triangle) * 9;
+    corner += static_cast<int64_t>(s.at.triangle) * 9;
     const Vec3 n0{corner[0], corner[1], corner[2]}, n1{corner[3], corner[4], corner[5]},
         n2{corner[6], corner[7], corner[8]};
-    Vec3 n = n0 * (1.0f - hit.u - hit.v) + n1 * hit.u + n2 * hit.v;
+    Vec3 n = n0 * (1.0f - s.b1 - s.b2) + n1 * s.b1 + n2 * s.b2;
     if (!instance.identity) n = transform_transposed(instance.world_to_object, n);
     return normalize_safe(n);
 }

@@ -81,12 +81,14 @@ constexpr uint32_t kLamps = kSmoothNormals | kExtendedEmitters;
 constexpr uint32_t kTextured = kLamps | kTextures;
 constexpr uint32_t kOutdoor = kTextured | kEnvironment;
 constexpr uint32_t kFull = kOutdoor | kTransmission;
+constexpr uint32_t kProgrammed = kFull | kPrograms;
 
 const KernelSet kSets[] = {{"plain", kPlain, render_chunk<kPlain>},
                            {"lamps", kLamps, render_chunk<kLamps>},
                            {"textured", kTextured, render_chunk<kTextured>},
                            {"outdoor", kOutdoor, render_chunk<kOutdoor>},
-                           {"full", kFull, render_chunk<kFull>}};
+                           {"full", kFull, render_chunk<kFull>},
+                           {"programmed", kProgrammed, render_chunk<kProgrammed>}};
 
 }  // namespace
 

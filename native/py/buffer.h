@@ -13,8 +13,8 @@ enum class Access { read, write };
 /// Any extent is allowed in this dimension.
 constexpr int64_t kAnyExtent = -1;
 
-/// A C-contiguous array of `Item` (float, double, int32_t, int64_t or uint8_t) held while it lives.
-/// `None` gives an empty, absent buffer where `Absence::allowed` is said.
+/// A C-contiguous array of `Item` (float, double, int32_t, int64_t, uint8_t or uint16_t) held while
+/// it lives. `None` gives an empty, absent buffer where `Absence::allowed` is said.
 class Buffer {
   public:
     /// `name` is the argument's name in messages; `shape` has kAnyExtent where any extent will do.
@@ -55,6 +55,7 @@ class Buffer {
     static char item_kind(int32_t) { return 'i'; }
     static char item_kind(int64_t) { return 'i'; }
     static char item_kind(uint8_t) { return 'u'; }
+    static char item_kind(uint16_t) { return 'u'; }
     Buffer(PyObject* object, const char* name, std::initializer_list<int64_t> shape, ItemType type);
     void check_type(const char* name, ItemType type) const;
     void check_shape(const char* name, std::initializer_list<int64_t> shape) const;

@@ -191,6 +191,7 @@ void add_job_type(PyObject* module) {
     add_names(module, "MATERIAL_FIELDS", kMaterialFields);
     add_names(module, "LIGHT_FIELDS", kLightFields);
     add_names(module, "TEXTURE_FIELDS", kTextureFields);
+    add_names(module, "TEXTURE_OPS", kTextureOps);
 }
 
 }  // namespace trg::py

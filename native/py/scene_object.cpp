@@ -4,6 +4,7 @@
 
 #include "py/scene_geometry.h"
 #include "py/scene_queries.h"
+#include "py/scene_textures.h"
 #include "py/scene_updates.h"
 
 namespace trg::py {
@@ -122,6 +123,7 @@ void add_scene_type(PyObject* module) {
     add_methods(type.get(), kSceneUpdateMethods);
     add_methods(type.get(), kSceneQueryMethods);
     add_methods(type.get(), kSceneRenderMethods);
+    add_methods(type.get(), kSceneTextureMethods);
     if (PyModule_AddObjectRef(module, "Scene", type.get()) != 0) throw PythonError{};
 }
 

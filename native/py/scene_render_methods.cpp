@@ -27,38 +27,6 @@ PyObject* set_table_method(PyObject* self, PyObject* table) {
     });
 }
 
-template <class Item>
-void copy_pixels(PyObject* object, Image* image, std::vector<Item>* pixels) {
-    const Buffer buffer = Buffer::of<Item>(object, "pixels", {kAnyExtent, kAnyExtent, kAnyExtent});
-    for (int k = 0; k < 2; ++k)
-        if (buffer.extent(k) < 1 || buffer.extent(k) > kLargestSide)
-            throw ArgumentError("pixels: expected sides from 1 to " + std::to_string(kLargestSide));
-    const int64_t channels = buffer.extent(2);
-    if (channels != 1 && channels != 3 && channels != 4)
-        throw ArgumentError("pixels: expected 1, 3 or 4 channels, got " + std::to_string(channels));
-    image->height = static_cast<int32_t>(buffer.extent(0));
-    image->width = static_cast<int32_t>(buffer.extent(1));
-    image->channels = static_cast<int32_t>(channels);
-    pixels->assign(buffer.data<Item>(), buffer.data<Item>() + buffer.count());
-}
-
-PyObject* add_image_method(PyObject* self, PyObject* args, PyObject* kwargs) {
-    return guarded_object([&] {
-        PyObject* pixels;
-        int srgb = 1;
-        const char* const names[] = {"pixels", "srgb", nullptr};
-        parse_arguments(args, kwargs, "O|p", names, &pixels, &srgb);
-        Scene& scene = scene_to_change(self);
-        Image image{};
-        image.srgb = srgb != 0;
-        if (has_item_type(pixels, 'u', 1))
-            copy_pixels(pixels, &image, &image.bytes);
-        else
-            copy_pixels(pixels, &image, &image.floats);
-        return checked(PyLong_FromLong(add_image(scene.tables, std::move(image))));
-    });
-}
-
 PyObject* set_world_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         float r, g, b;
@@ -183,11 +151,6 @@ PyObject* start_render_method(PyObject* self, PyObject* args, PyObject* kwargs) 
 }  // namespace
 
 PyMethodDef kSceneRenderMethods[] = {
-    {"add_image", as_method(add_image_method), METH_VARARGS | METH_KEYWORDS,
-     "add_image(pixels, srgb=True) -> image index\n\n"
-     "pixels: uint8 or float32 (h, w, 1 | 3 | 4), row 0 at the bottom."},
-    {"set_textures", set_table_method<set_textures>, METH_O,
-     "set_textures(table): float32 (n, len(TEXTURE_FIELDS)); images must be there"},
     {"set_materials", set_table_method<set_materials>, METH_O,
      "set_materials(table): float32 (n, len(MATERIAL_FIELDS)); textures must be there"},
     {"set_lights", set_table_method<set_lights>, METH_O,

@@ -1,5 +1,7 @@
 #include "scene/frozen_scene.h"
 
+#include <algorithm>
+
 namespace trg {
 
 namespace {
@@ -20,7 +22,9 @@ FrozenScene::FrozenScene(const Scene& scene) {
         meshes_.push_back({mesh.vertices.data(), mesh.triangles.data(), data_or_null(a.normals),
                            data_or_null(a.uvs), data_or_null(a.slots), mesh.shape});
     }
+    check_textures(scene.tables.textures);
     view_images(scene);
+    view_corners(scene);
     emitters_ = build_emitters(scene);
     view_.world = &scene.world;
     view_.meshes = meshes_.data();
@@ -29,7 +33,11 @@ FrozenScene::FrozenScene(const Scene& scene) {
     view_.first_slot = scene.first_slot.data();
     view_.slot_count = scene.slot_count.data();
     view_.materials = scene.tables.materials.data();
-    view_.textures = {images_.data(), scene.tables.textures.data()};
+    const TextureTables& t = scene.tables.textures;
+    view_.textures = {images_.data(), t.textures.data(), t.programs.data(), t.ops.data(),
+                      t.constants.data()};
+    view_.texture_meshes = texture_meshes_.data();
+    view_.randoms = data_or_null(scene.randoms);
     view_.lights = scene.tables.lights.data();
     view_.emitters = view_emitters(emitters_);
     view_.background = scene.tables.background;
@@ -46,31 +54,55 @@ void FrozenScene::check_materials(const Scene& scene) const {
                              " of " + std::to_string(count) + " materials");
     if (!scene.world.instances.empty() && count == 0)
         throw TableError("materials: the scene has instances but no material");
-    const int64_t textures = static_cast<int64_t>(scene.tables.textures.size());
+    const int64_t textures = static_cast<int64_t>(scene.tables.textures.textures.size());
     for (const Material& m : scene.tables.materials)
-        for (int32_t index :
-             {m.base_texture, m.roughness_texture, m.metallic_texture, m.emission_texture})
+        for (int32_t index : {m.base_texture, m.roughness_texture, m.metallic_texture,
+                              m.emission_texture, m.normal_texture})
             if (index >= textures)
                 throw TableError(
                     "textures: the table was replaced by one too short for the materials");
 }
 
 void FrozenScene::view_images(const Scene& scene) {
-    for (int k = 0; k < 256; ++k) {
-        plain_bytes_[k] = static_cast<float>(k) / 255.0f;
-        srgb_bytes_[k] = srgb_to_linear(plain_bytes_[k]);
-    }
-    for (const Image& image : scene.tables.images)
-        images_.push_back({data_or_null(image.bytes), data_or_null(image.floats),
-                           image.srgb ? srgb_bytes_.data() : plain_bytes_.data(), image.width,
+    for (int k = 0; k < kDecodeSteps + 2; ++k)
+        decode_[k] = srgb_to_linear(static_cast<float>(k) / kDecodeSteps);
+    for (const Image& image : scene.tables.textures.images) {
+        const PixelKind kind = !image.bytes.empty()    ? PixelKind::bytes
+                               : !image.halves.empty() ? PixelKind::halves
+                                                       : PixelKind::floats;
+        const void* pixels = kind == PixelKind::bytes ? static_cast<const void*>(image.bytes.data())
+                             : kind == PixelKind::halves
+                                 ? static_cast<const void*>(image.halves.data())
+                                 : image.floats.data();
+        const bool encoded = image.srgb && kind != PixelKind::floats;
+        images_.push_back({pixels, kind, encoded ? decode_.data() : nullptr, image.width,
                            image.height, image.channels});
+    }
+}
+
+void FrozenScene::view_corners(const Scene& scene) {
+    size_t count = 0;
+    for (const MeshAttributes& a : scene.attributes) count += std::max<size_t>(a.corners.size(), 1);
+    corners_.reserve(count);  // the meshes point into it
+    for (size_t k = 0; k < scene.attributes.size(); ++k) {
+        const MeshAttributes& a = scene.attributes[k];
+        const CornerView* first = corners_.data() + corners_.size();
+        corners_.push_back({data_or_null(a.uvs), 2});
+        for (size_t number = 1; number < a.corners.size(); ++number)
+            corners_.push_back({data_or_null(a.corners[number].values), a.corners[number].width});
+        texture_meshes_.push_back({first,
+                                   static_cast<int32_t>(std::max<size_t>(a.corners.size(), 1)),
+                                   scene.world.meshes[k].shape, a.space_scale, a.space_offset});
+    }
 }
 
 uint32_t FrozenScene::find_features(const Scene& scene) const {
     uint32_t features = 0;
+    for (const Texture& texture : scene.tables.textures.textures)
+        if (texture.program >= 0 || texture.uv_map > 0) features |= kPrograms;
     for (const Material& m : scene.tables.materials) {
         if (m.base_texture >= 0 || m.roughness_texture >= 0 || m.metallic_texture >= 0 ||
-            m.emission_texture >= 0)
+            m.emission_texture >= 0 || m.normal_texture >= 0)
             features |= kTextures;
         if (m.transmission > 0.0f) features |= kTransmission;
     }

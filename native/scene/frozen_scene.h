@@ -23,11 +23,14 @@ class FrozenScene {
   private:
     void check_materials(const Scene& scene) const;
     void view_images(const Scene& scene);
+    void view_corners(const Scene& scene);
     uint32_t find_features(const Scene& scene) const;
 
-    std::array<float, 256> srgb_bytes_{}, plain_bytes_{};
+    std::array<float, kDecodeSteps + 2> decode_{};
     std::vector<MeshView> meshes_;
     std::vector<ImageView> images_;
+    std::vector<CornerView> corners_;
+    std::vector<TextureMesh> texture_meshes_;
     EmitterTables emitters_;
     SceneView view_{};
     uint32_t features_ = 0;

@@ -9,11 +9,19 @@
 
 namespace trg {
 
+/// Values at the corners of a mesh's triangles; empty where it has none.
+struct CornerAttribute {
+    int32_t width = 0;  // 1 to 4
+    std::vector<float> values;
+};
+
 /// What a mesh carries besides its shape; each array is empty when nothing asks for it.
 struct MeshAttributes {
-    std::vector<float> normals;  // 9 a triangle: three unit corner normals
-    std::vector<float> uvs;      // 6 a triangle: three corner coordinates
-    std::vector<int32_t> slots;  // 1 a triangle: material slot
+    std::vector<float> normals;            // 9 a triangle: three unit corner normals
+    std::vector<float> uvs;                // 6 a triangle: three corner coordinates
+    std::vector<int32_t> slots;            // 1 a triangle: material slot
+    std::vector<CornerAttribute> corners;  // by the scene's number of the attribute; 0 is unused
+    Vec3 space_scale{1.0f, 1.0f, 1.0f}, space_offset{0.0f, 0.0f, 0.0f};
 };
 
 struct Scene {
@@ -22,6 +30,7 @@ struct Scene {
     std::vector<int32_t> slot_materials;     // slot -> material, of all instances in a row
     std::vector<int64_t> first_slot;         // one an instance: where its slots begin
     std::vector<int32_t> slot_count;         // one an instance
+    std::vector<float> randoms;              // one an instance, or none
     ShadingTables tables;
 };
 

@@ -19,10 +19,8 @@ const std::vector<const char*> kMaterialFields = {"base_r",
                                                   "base_texture",
                                                   "roughness_texture",
                                                   "metallic_texture",
-                                                  "emission_texture"};
-
-const std::vector<const char*> kTextureFields = {"image",    "scale_u",  "scale_v",
-                                                 "offset_u", "offset_v", "wrap"};
+                                                  "emission_texture",
+                                                  "normal_texture"};
 
 namespace {
 
@@ -61,19 +59,9 @@ Material read_material(TableRow row, int64_t texture_count, MeanFresnel& mean) {
     m.roughness_texture = row.next_index(-1, texture_count);
     m.metallic_texture = row.next_index(-1, texture_count);
     m.emission_texture = row.next_index(-1, texture_count);
+    m.normal_texture = row.next_index(-1, texture_count);
     m.mean_fresnel = mean.of(m.ior);
     return m;
-}
-
-Texture read_texture(TableRow row, int64_t image_count) {
-    Texture texture{};
-    texture.image = row.next_index(0, image_count);
-    texture.scale_u = row.next();
-    texture.scale_v = row.next();
-    texture.offset_u = row.next();
-    texture.offset_v = row.next();
-    texture.wrap = static_cast<Wrap>(row.next_index(0, 2));
-    return texture;
 }
 
 }  // namespace
@@ -84,17 +72,9 @@ void set_materials(ShadingTables& tables, const Table& table) {
     MeanFresnel mean;
     for (int64_t row = 0; row < table.rows; ++row)
         materials.push_back(read_material({table, "materials", kMaterialFields, row},
-                                          static_cast<int64_t>(tables.textures.size()), mean));
+                                          static_cast<int64_t>(tables.textures.textures.size()),
+                                          mean));
     tables.materials.swap(materials);
-}
-
-void set_textures(ShadingTables& tables, const Table& table) {
-    check_columns(table, "textures", kTextureFields);
-    std::vector<Texture> textures;
-    for (int64_t row = 0; row < table.rows; ++row)
-        textures.push_back(read_texture({table, "textures", kTextureFields, row},
-                                        static_cast<int64_t>(tables.images.size())));
-    tables.textures.swap(textures);
 }
 
 void set_background(ShadingTables& tables, float r, float g, float b) {
@@ -135,23 +115,6 @@ void set_camera(ShadingTables& tables, const CameraRequest& request) {
     c.clip_start = static_cast<float>(request.clip_start);
     c.clip_end = static_cast<float>(std::fmin(request.clip_end, 3.0e38));
     tables.has_camera = true;
-}
-
-float srgb_to_linear(float encoded) {
-    return encoded <= 0.04045f ? encoded / 12.92f : std::pow((encoded + 0.055f) / 1.055f, 2.4f);
-}
-
-int add_image(ShadingTables& tables, Image image) {
-    for (size_t k = 0; k < image.floats.size(); ++k) {
-        if (!std::isfinite(image.floats[k]))
-            throw TableError(
-                "pixels: row " +
-                std::to_string(k / (static_cast<size_t>(image.width) * image.channels)) +
-                " has a number that is not finite");
-        if (image.srgb) image.floats[k] = srgb_to_linear(image.floats[k]);
-    }
-    tables.images.push_back(std::move(image));
-    return static_cast<int>(tables.images.size()) - 1;
 }
 
 }  // namespace trg

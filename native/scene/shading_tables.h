@@ -8,6 +8,7 @@
 
 #include "kernel/scene_view.h"
 #include "scene/environment.h"
+#include "scene/texture_tables.h"
 
 namespace trg {
 
@@ -17,25 +18,10 @@ class TableError : public std::invalid_argument {
 };
 
 /// Columns of the packed tables, in order (trg_blender/engine/scene_arrays.py has the same).
-extern const std::vector<const char*> kMaterialFields, kLightFields, kTextureFields;
-
-/// A table of float32 rows as it came from Python.
-struct Table {
-    const float* data;
-    int64_t rows, columns;
-};
-
-/// Stored pixels; one of `bytes` and `floats` (linear) is filled.
-struct Image {
-    std::vector<uint8_t> bytes;
-    std::vector<float> floats;
-    bool srgb;
-    int32_t width, height, channels;
-};
+extern const std::vector<const char*> kMaterialFields, kLightFields;
 
 struct ShadingTables {
-    std::vector<Image> images;
-    std::vector<Texture> textures;
+    TextureTables textures;
     std::vector<Material> materials;
     std::vector<Light> lights;
     Vec3 background{0.0f, 0.0f, 0.0f};
@@ -54,18 +40,11 @@ struct CameraRequest {
 
 /// Each replaces its table. All throw TableError.
 void set_materials(ShadingTables& tables, const Table& table);
-void set_textures(ShadingTables& tables, const Table& table);
 void set_lights(ShadingTables& tables, const Table& table);
 void set_background(ShadingTables& tables, float r, float g, float b);
 /// Takes the place of the background. `environment` has pixels, size, axes and visibility; throws
 /// TableError for pixels that are not finite.
 void set_environment(ShadingTables& tables, Environment environment);
 void set_camera(ShadingTables& tables, const CameraRequest& request);
-
-/// Float pixels marked sRGB are made linear once; returns the image's index.
-int add_image(ShadingTables& tables, Image image);
-
-/// Value of an sRGB-encoded number in linear light (IEC 61966-2-1).
-float srgb_to_linear(float encoded);
 
 }  // namespace trg

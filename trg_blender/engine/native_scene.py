@@ -23,17 +23,16 @@ def build_native_scene(
 ) -> tuple[Any, dict[str, Any]]:
     """The built native scene and its build statistics. The arrays are copied."""
     result = native.Scene(accel=settings.accel, triangle_test=settings.triangle_test)
-    for mesh in scene.meshes:
+    for number, mesh in enumerate(scene.meshes):
         add_mesh(result, mesh)
+        add_attributes(result, number, mesh)
     for instance in scene.instances:
         transforms = np.ascontiguousarray(instance.transforms, dtype=np.float32)
         result.add_instances(
             instance.mesh, transforms, np.ascontiguousarray(instance.slot_materials, dtype=np.int32)
         )
-    for image in scene.images:
-        kind = np.uint8 if image.pixels.dtype == np.uint8 else np.float32
-        result.add_image(np.ascontiguousarray(image.pixels, dtype=kind), image.srgb)
-    result.set_textures(pack_table(scene.textures, TEXTURE_FIELDS))
+    set_randoms(result, scene)
+    set_textures(result, scene)
     result.set_materials(pack_table(scene.materials, MATERIAL_FIELDS))
     result.set_lights(pack_table(scene.lights, LIGHT_FIELDS))
     result.set_world(*(float(value) for value in scene.world))
@@ -44,6 +43,39 @@ def build_native_scene(
     window = np.array(camera.window, dtype=np.float64)
     result.set_camera(camera.kind, matrix, window, camera.clip_start, camera.clip_end)
     return result, dict(result.build(settings.threads, expected_rays(scene, settings)))
+
+
+def set_textures(result: Any, scene: SceneArrays) -> None:
+    """Images in their own size, textures and programs."""
+    for image in scene.images:
+        pixels = image.pixels
+        if pixels.dtype == np.float16:
+            pixels = pixels.view(np.uint16)
+        elif pixels.dtype != np.uint8:
+            pixels = pixels.astype(np.float32, copy=False)
+        result.add_image(np.ascontiguousarray(pixels), image.srgb)
+    result.set_textures(pack_table(scene.textures, TEXTURE_FIELDS))
+    programs = scene.programs
+    result.set_programs(programs.ops, programs.constants, programs.programs)
+
+
+def set_randoms(result: Any, scene: SceneArrays) -> None:
+    if all(instance.randoms is None for instance in scene.instances):
+        return
+    parts = [
+        np.zeros(len(one.transforms), np.float32) if one.randoms is None else one.randoms
+        for one in scene.instances
+    ]
+    result.set_randoms(np.concatenate(parts).astype(np.float32, copy=False))
+
+
+def add_attributes(result: Any, number: int, mesh: MeshArrays) -> None:
+    """What texture programs read of a mesh beside its main UV map."""
+    if mesh.shape == "triangles":
+        for attribute, values in mesh.attributes.items():
+            result.set_attribute(number, attribute, np.ascontiguousarray(values, dtype=np.float32))
+    if mesh.texture_space is not None:
+        result.set_texture_space(number, *mesh.texture_space)
 
 
 def expected_rays(scene: SceneArrays, settings: RenderSettings) -> float:

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from .reference_math import dot, normalize
 from .reference_scene import Hits, Triangles
 from .reference_shapes import shape_points
-from .reference_textures import linear_image, look_up
+from .reference_textures import Picture, look_up, prepare_image
 from .scene_arrays import MATERIAL_FIELDS, Float64, SceneArrays, pack_table
 
 IDEAL_ALPHA = 1e-3
@@ -21,11 +21,11 @@ GRAZING = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class MaterialTable:
-    """The material rows as columns, and the images they look into, made linear once."""
+    """The material rows as columns, and the images they look into."""
 
     columns: dict[str, Float64]
     scene: SceneArrays
-    images: list[Float64]
+    images: list[Picture]
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,7 +70,7 @@ class Surface:
 def build_material_table(scene: SceneArrays) -> MaterialTable:
     rows = pack_table(scene.materials, MATERIAL_FIELDS).astype(np.float64)
     columns = {name: rows[:, column] for column, name in enumerate(MATERIAL_FIELDS)}
-    return MaterialTable(columns, scene, [linear_image(image) for image in scene.images])
+    return MaterialTable(columns, scene, [prepare_image(image) for image in scene.images])
 
 
 def evaluate_material(table: MaterialTable, index: NDArray[np.int64], uv: Float64) -> Material:

@@ -11,12 +11,17 @@ from dataclasses import dataclass, field, fields
 import numpy as np
 from numpy.typing import NDArray
 
+from .texture_ops import ProgramArrays
+
 Float32 = NDArray[np.float32]
 Float64 = NDArray[np.float64]
 Int32 = NDArray[np.int32]
 Color = tuple[float, float, float]
 
-WRAP_MODES = ("repeat", "extend")
+WRAP_MODES = ("repeat", "extend", "clip", "mirror")
+FILTERS = ("linear", "closest", "cubic")
+CHANNELS = ("color", "alpha", "luminance")
+"""what of a texel a texture gives: its colour, or its alpha or its Rec.709 luminance as a grey"""
 LIGHT_KINDS = ("sun", "point", "spot", "area_rectangle", "area_ellipse")
 SHAPES = ("triangles", "sphere", "plane")
 """what a mesh may be: its triangles, the unit sphere round the origin, the infinite plane z = 0"""
@@ -46,6 +51,10 @@ class MeshArrays:
     """Blender name, for messages"""
     shape: str = "triangles"
     """one of SHAPES"""
+    attributes: dict[int, Float32] = field(default_factory=dict)
+    """(m, 3, 1 to 4) values at the corners, by their index in SceneArrays.attributes (0 is not used)"""
+    texture_space: tuple[Color, Color] | None = None
+    """scale and offset: generated coordinates are place * scale + offset; None is the place itself"""
 
 
 @dataclass(slots=True)
@@ -58,30 +67,47 @@ class InstanceArrays:
     slot_materials: Int32
     """(slots,) slot -> index into SceneArrays.materials"""
     origin: str = ""
+    randoms: Float32 | None = None
+    """(k,) what the Object Info node calls Random, 0 to 1; None is 0"""
 
 
 @dataclass(slots=True)
 class ImageArrays:
     """Pixels as they were stored; row 0 is the bottom row."""
 
-    pixels: NDArray[np.uint8] | Float32
+    pixels: NDArray[np.uint8] | NDArray[np.float16] | Float32
     """(h, w, c), c = 1, 3 or 4"""
     srgb: bool = True
-    """True: the stored values are sRGB-encoded, convert before use"""
+    """True: red, green and blue are sRGB-encoded; bytes and halves are interpolated so, floats after
+    conversion"""
     origin: str = ""
 
 
 @dataclass(slots=True)
 class Texture:
-    """A look-up: image at uv * scale + offset."""
+    """A look-up: the image at (scale_u u + skew_u v + offset_u, skew_v u + scale_v v + offset_v), or a
+    program."""
 
     image: int
+    """index into SceneArrays.images; -1 where there is a program"""
     scale_u: float = 1.0
     scale_v: float = 1.0
     offset_u: float = 0.0
     offset_v: float = 0.0
     wrap: int = 0
     """index into WRAP_MODES"""
+    skew_u: float = 0.0
+    skew_v: float = 0.0
+    filter: int = 0
+    """index into FILTERS"""
+    channel: int = 0
+    """index into CHANNELS"""
+    uv_map: int = 0
+    """index into SceneArrays.attributes; 0 is MeshArrays.uvs"""
+    unassociate: int = 0
+    """1: the stored colour was multiplied by alpha; divide it after interpolation"""
+    program: int = -1
+    """row of ProgramArrays.programs, which then gives the value"""
 
 
 @dataclass(slots=True)
@@ -103,6 +129,8 @@ class Material:
     roughness_texture: int = -1
     metallic_texture: int = -1
     emission_texture: int = -1
+    normal_texture: int = -1
+    """gives the shading normal, in the world"""
 
 
 @dataclass(slots=True)
@@ -183,6 +211,9 @@ class SceneArrays:
     materials: list[Material] = field(default_factory=list)
     images: list[ImageArrays] = field(default_factory=list)
     textures: list[Texture] = field(default_factory=list)
+    programs: ProgramArrays = field(default_factory=ProgramArrays)
+    attributes: list[str] = field(default_factory=lambda: [""])
+    """names of corner attributes, for messages; number 0 stands for MeshArrays.uvs"""
     lights: list[Light] = field(default_factory=list)
     world: Color = (0.0, 0.0, 0.0)
     environment: Environment | None = None

@@ -13,6 +13,7 @@ from .scene_arrays import (
     LIGHT_KINDS,
     SHAPES,
     WRAP_MODES,
+    MATERIAL_FIELDS,
     Camera,
     Environment,
     InstanceArrays,
@@ -20,6 +21,8 @@ from .scene_arrays import (
     RenderSettings,
     SceneArrays,
 )
+
+TEXTURE_COLUMNS = tuple(name for name in MATERIAL_FIELDS if name.endswith("_texture"))
 
 
 def check_settings(settings: RenderSettings) -> None:
@@ -124,17 +127,21 @@ def check_instance(scene: SceneArrays, instance: InstanceArrays) -> None:
 def check_tables(scene: SceneArrays) -> None:
     """Indices between materials, textures and images."""
     for number, material in enumerate(scene.materials):
-        for field in ("base_texture", "roughness_texture", "metallic_texture", "emission_texture"):
+        for field in TEXTURE_COLUMNS:
             if not -1 <= getattr(material, field) < len(scene.textures):
                 raise SceneError(f"material {number}: {field} {getattr(material, field)} is not there")
     for number, texture in enumerate(scene.textures):
-        if not 0 <= texture.image < len(scene.images):
+        if texture.program >= len(scene.programs.programs):
+            raise SceneError(f"texture {number}: program {texture.program} is not there")
+        if texture.program < 0 and not 0 <= texture.image < len(scene.images):
             raise SceneError(f"texture {number}: image {texture.image} is not there")
         if not 0 <= texture.wrap < len(WRAP_MODES):
             raise SceneError(f"texture {number}: wrap {texture.wrap} is not an index into {WRAP_MODES}")
     for image in scene.images:
         if image.pixels.ndim != 3 or 0 in image.pixels.shape:
             raise SceneError(f"image {image.origin!r}: its pixels have the shape {image.pixels.shape}")
+        if image.pixels.dtype != np.uint8 and not np.isfinite(image.pixels).all():
+            raise SceneError(f"image {image.origin!r}: a pixel is not finite")
     for number, light in enumerate(scene.lights):
         if not 0 <= light.kind < len(LIGHT_KINDS):
             raise SceneError(f"light {number}: kind {light.kind} is not an index into {LIGHT_KINDS}")
