@@ -4,6 +4,7 @@
 #include "py/buffer.h"
 #include "py/job_object.h"
 #include "py/scene_object.h"
+#include "py/scene_textures.h"
 
 namespace trg::py {
 
