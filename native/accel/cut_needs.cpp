@@ -11,8 +11,11 @@ namespace trg {
 namespace {
 
 constexpr int64_t kGrain = 1 << 13;
-constexpr double kBudget = 0.25;     // cuts per reference
-constexpr double kLeastGain = 0.25;  // of the area of all boxes
+constexpr double kBudget = 0.25;                    // cuts per reference
+constexpr double kLeastGain = 0.25;                 // of the area of all boxes
+constexpr double kHopelessGain = 0.5 * kLeastGain;  // of a sample: the rest is not looked at
+constexpr size_t kLeastSampled = 1 << 14;
+constexpr int64_t kSampleStride = 16;
 constexpr double kMostOfOne = 0.01;  // of it that one triangle counts for
 constexpr int kMostCuts = 1 << 10;   // of one triangle
 constexpr int kGridBits = 20;
@@ -67,26 +70,28 @@ struct Candidate {
     float priority, excess;
 };
 
-/// Priorities of all references and what their boxes measure together.
+/// Priorities of references and what their boxes measure together.
 struct Candidates {
     std::vector<Candidate> of;
     double area = 0;
 };
 
-Candidates weigh_refs(const std::vector<PrimRef>& refs, const Lattice& lattice,
-                      const CornersOf& corners_of, int threads) {
+/// Weighs every `stride`-th reference.
+Candidates weigh_refs(const PrimRefs& refs, int64_t stride, const Lattice& lattice,
+                      const SplitSettings& settings) {
     Candidates result;
-    result.of.resize(refs.size());
-    const auto count = static_cast<int64_t>(refs.size());
+    const auto count = static_cast<int64_t>(refs.size()) / stride;
+    result.of.resize(count);
     std::vector<double> areas((count + kGrain - 1) / kGrain);
-    parallel_for(count, kGrain, threads, [&](int64_t begin, int64_t end) {
+    parallel_for(count, kGrain, settings.threads, [&](int64_t begin, int64_t end) {
         double area = 0;
         for (int64_t k = begin; k < end; ++k) {
-            const double excess = excess_area(corners_of(refs[k].item), refs[k]);
-            const int level = coarsest_level(lattice, refs[k]);
+            const PrimRef& ref = refs[k * stride];
+            const double excess = excess_area((*settings.corners)(ref.item), ref);
+            const int level = coarsest_level(lattice, ref);
             const double weight = level < 0 ? 0 : std::ldexp(excess, level - kGridBits);
             result.of[k] = {static_cast<float>(std::cbrt(weight)), static_cast<float>(excess)};
-            area += half_area(box_of(refs[k]));
+            area += half_area(box_of(ref));
         }
         areas[begin / kGrain] = area;
     });
@@ -138,11 +143,15 @@ double estimated_gain(const Candidates& candidates, double scale) {
 
 }  // namespace
 
-int64_t measure_needs(std::vector<PrimRef>& refs, const Bounds& bounds,
-                      const SplitSettings& settings) {
+int64_t measure_needs(PrimRefs& refs, const Bounds& bounds, const SplitSettings& settings) {
     const Lattice lattice = lattice_over(bounds);
     if (!(lattice.edge > 0)) return 0;
-    const Candidates candidates = weigh_refs(refs, lattice, *settings.corners, settings.threads);
+    if (refs.size() >= kLeastSampled) {
+        const Candidates sample = weigh_refs(refs, kSampleStride, lattice, settings);
+        const double scale = scale_of_cuts(sample, settings.threads);
+        if (estimated_gain(sample, scale) < kHopelessGain) return 0;
+    }
+    const Candidates candidates = weigh_refs(refs, 1, lattice, settings);
     const double scale = scale_of_cuts(candidates, settings.threads);
     if (estimated_gain(candidates, scale) < kLeastGain) return 0;
     for (size_t k = 0; k < refs.size(); ++k)

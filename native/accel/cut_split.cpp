@@ -13,6 +13,9 @@ namespace {
 
 constexpr int kCutBins = 16;
 constexpr int64_t kGrain = 1 << 13;
+/// Axes along which a range is shorter than this share of the longest are not cut.
+constexpr double kLeastExtent = 0.1;
+constexpr int64_t kLeastSample = 128, kMostStride = 16;
 constexpr double kUnit = 0x1p-23, kLeast = 1e-37;  // more than rounding to float can take away
 
 double along(const Vec3& v, int axis) {
@@ -85,139 +88,138 @@ bool cut_ref(const TriangleCorners& triangle, const CutPlane& plane, const PrimR
     return is_box(parts[0]) && is_box(parts[1]);
 }
 
-/// What the parts of triangles within one slab measure, how many triangles begin and end there.
-struct CutBin {
-    Box4 box;
-    int64_t enter, exit;
-};
-
+/// Slabs along the three axes: what the parts of triangles within each measure, and how many
+/// triangles begin and end there.
 struct CutBins {
-    CutBin bin[kCutBins];
-    float plane[kCutBins];  // plane[k] is the low side of slab k
-    float scale;            // slabs a unit of length
-    int axis;
+    Float4 low, scale;  // of positions to slabs
+    bool used[3];
+    Box4 box[3][kCutBins];
+    int enter[3][kCutBins], exit[3][kCutBins];
+    float plane[3][kCutBins];  // plane[axis][k] is the low side of slab k
 };
 
-CutBins empty_cut_bins(const Bounds& box, int axis) {
+CutBins empty_cut_bins(const Bounds& box) {
     CutBins bins;
-    bins.axis = axis;
-    const double lo = along(box.lo, axis), step = (along(box.hi, axis) - lo) / kCutBins;
-    bins.scale = static_cast<float>(std::min(1 / step, 1e30));
-    for (int k = 0; k < kCutBins; ++k) {
-        bins.bin[k] = {empty_box(), 0, 0};
-        bins.plane[k] = static_cast<float>(lo + k * step);
+    double longest = 0;
+    alignas(16) float low[4] = {box.lo.x, box.lo.y, box.lo.z, 0}, scale[4] = {0, 0, 0, 0};
+    for (int axis = 0; axis < 3; ++axis)
+        longest = std::max(longest, along(box.hi, axis) - along(box.lo, axis));
+    for (int axis = 0; axis < 3; ++axis) {
+        const double extent = along(box.hi, axis) - along(box.lo, axis);
+        const double step = extent / kCutBins;
+        bins.used[axis] = extent > kLeastExtent * longest;
+        scale[axis] = static_cast<float>(std::min(1 / step, 1e30));
+        for (int k = 0; k < kCutBins; ++k) {
+            bins.box[axis][k] = empty_box();
+            bins.enter[axis][k] = bins.exit[axis][k] = 0;
+            bins.plane[axis][k] = static_cast<float>(low[axis] + k * step);
+        }
     }
+    bins.low = load4(low);
+    bins.scale = load4(scale);
     return bins;
 }
 
-/// Slabs that a reference begins and ends in.
-struct SlabRange {
-    int first, last;
+/// Slabs along each axis that a point lies in; what ends at a plane does not reach beyond it.
+void slabs_of(const CutBins& bins, Float4 point, Float4 shift, int slabs[4]) {
+    const Float4 slab = (point - bins.low) * bins.scale + shift;
+    truncate4(slabs, min4(max4(slab, splat4(0)), splat4(kCutBins - 1)));
+}
+
+/// A corner of a triangle and the slabs it lies in.
+struct CutCorner {
+    alignas(16) float row[4];
+    int slabs[4];
 };
 
-SlabRange slabs_of(const CutBins& bins, float lo, float hi) {
-    const auto guess = [&](float x) {
-        return std::clamp(static_cast<int>((x - bins.plane[0]) * bins.scale), 0, kCutBins - 1);
-    };
-    int first = guess(lo), last = guess(hi);
-    while (first + 1 < kCutBins && bins.plane[first + 1] <= lo) ++first;
-    while (first > 0 && bins.plane[first] > lo) --first;
-    while (last + 1 < kCutBins && bins.plane[last + 1] < hi) ++last;
-    while (last > 0 && bins.plane[last] >= hi) --last;
-    return {first, std::max(first, last)};
-}
+/// The piece of a reference along one axis: its box and the slabs from `first` to `last`.
+struct CutPiece {
+    Box4 box;
+    int axis, first, last;
+};
 
-void grow_bin(CutBin& bin, Float4 p) {
-    bin.box = united(bin.box, Box4{p, p});
-}
-
-/// Adds an edge's points on the planes within `slabs`, held to `box`.
-void add_edge(CutBins& bins, const SlabRange& slabs, const Box4& box, const float* a,
-              const float* b) {
-    const float from = a[bins.axis], to = b[bins.axis], low = std::min(from, to);
-    const float high = std::max(from, to), inverse = 1.0f / (to - from);
-    const Float4 start = load4(a), way = load4(b) - start;
-    for (int k = slabs.first + 1; k <= slabs.last; ++k) {
-        if (bins.plane[k] <= low || bins.plane[k] >= high) continue;
-        const Float4 p = start + way * splat4((bins.plane[k] - from) * inverse);
-        const Float4 held = min4(max4(p, box.lo), box.hi);
-        grow_bin(bins.bin[k - 1], held);
-        grow_bin(bins.bin[k], held);
+/// Adds an edge, slab by slab, held to the piece's box.
+void add_edge(CutBins& bins, const CutPiece& piece, const CutCorner& a, const CutCorner& b) {
+    const int axis = piece.axis;
+    const bool rises = a.row[axis] <= b.row[axis];
+    const CutCorner &low = rises ? a : b, &high = rises ? b : a;
+    const int first = std::clamp(low.slabs[axis], piece.first, piece.last);
+    const int last = std::clamp(high.slabs[axis], first, piece.last);
+    const Float4 start = load4(low.row), end = load4(high.row), way = end - start;
+    const float inverse = 1.0f / (high.row[axis] - low.row[axis]);
+    Float4 from = min4(max4(start, piece.box.lo), piece.box.hi);
+    for (int k = first; k <= last; ++k) {
+        Float4 to = end;
+        if (k < last)
+            to = start + way * splat4((bins.plane[axis][k + 1] - low.row[axis]) * inverse);
+        to = min4(max4(to, piece.box.lo), piece.box.hi);
+        Box4& bin = bins.box[axis][k];
+        bin = united(bin, Box4{min4(from, to), max4(from, to)});
+        from = to;
     }
+}
+
+void add_pieces(CutBins& bins, const TriangleCorners& triangle, CutPiece pieces[], int count) {
+    CutCorner corners[3];
+    for (int k = 0; k < 3; ++k) {
+        const Vec3 p = triangle.p[k];
+        const float row[4] = {p.x, p.y, p.z, 0};
+        std::copy(row, row + 4, corners[k].row);
+        slabs_of(bins, load4(corners[k].row), splat4(0), corners[k].slabs);
+    }
+    for (int k = 0; k < count; ++k)
+        for (int edge = 0; edge < 3; ++edge)
+            add_edge(bins, pieces[k], corners[edge], corners[(edge + 1) % 3]);
 }
 
 /// Adds a reference; boxes of parts are as good as floats go, because they only weigh planes.
 void add_cut(CutBins& bins, const PrimRef& ref, const CornersOf& corners) {
-    const float lo[3] = {ref.lo.x, ref.lo.y, ref.lo.z}, hi[3] = {ref.hi.x, ref.hi.y, ref.hi.z};
-    const SlabRange slabs = slabs_of(bins, lo[bins.axis], hi[bins.axis]);
-    ++bins.bin[slabs.first].enter;
-    ++bins.bin[slabs.last].exit;
     const Box4 box = rows_of(ref);
-    if (slabs.first == slabs.last) {
-        bins.bin[slabs.first].box = united(bins.bin[slabs.first].box, box);
-        return;
+    int first[4], last[4], count = 0;
+    slabs_of(bins, box.lo, splat4(0), first);
+    slabs_of(bins, box.hi, splat4(-0x1p-16f), last);
+    CutPiece pieces[3];
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!bins.used[axis]) continue;
+        last[axis] = std::max(first[axis], last[axis]);
+        ++bins.enter[axis][first[axis]];
+        ++bins.exit[axis][last[axis]];
+        Box4& bin = bins.box[axis][first[axis]];
+        if (first[axis] == last[axis])
+            bin = united(bin, box);
+        else
+            pieces[count++] = {box, axis, first[axis], last[axis]};
     }
-    const TriangleCorners triangle = corners(ref.item);
-    alignas(16) float p[3][4];
-    for (int k = 0; k < 3; ++k) {
-        const Vec3 corner = triangle.p[k];
-        const float row[4] = {corner.x, corner.y, corner.z, 0};
-        std::copy(row, row + 4, p[k]);
-        const SlabRange at_corner = slabs_of(bins, row[bins.axis], row[bins.axis]);
-        const int slab = std::clamp(at_corner.first, slabs.first, slabs.last);
-        grow_bin(bins.bin[slab], min4(max4(load4(p[k]), box.lo), box.hi));
-    }
-    for (int k = 0; k < 3; ++k) add_edge(bins, slabs, box, p[k], p[(k + 1) % 3]);
+    if (count > 0) add_pieces(bins, corners(ref.item), pieces, count);
 }
 
 void merge_bins(CutBins& bins, const CutBins& part) {
-    for (int k = 0; k < kCutBins; ++k) {
-        bins.bin[k].box = united(bins.bin[k].box, part.bin[k].box);
-        bins.bin[k].enter += part.bin[k].enter;
-        bins.bin[k].exit += part.bin[k].exit;
+    for (int axis = 0; axis < 3; ++axis) {
+        for (int k = 0; k < kCutBins; ++k) {
+            bins.box[axis][k] = united(bins.box[axis][k], part.box[axis][k]);
+            bins.enter[axis][k] += part.enter[axis][k];
+            bins.exit[axis][k] += part.exit[axis][k];
+        }
     }
 }
 
-/// Axes along which a range is long enough for cuts to matter.
-constexpr double kLeastExtent = 0.1;  // of the longest
-
-struct AllCutBins {
-    CutBins along[3];
-    int count = 0;
-};
-
-AllCutBins empty_cut_bins(const Bounds& box) {
-    AllCutBins bins;
-    double longest = 0;
-    for (int axis = 0; axis < 3; ++axis)
-        longest = std::max(longest, along(box.hi, axis) - along(box.lo, axis));
-    for (int axis = 0; axis < 3; ++axis)
-        if (along(box.hi, axis) - along(box.lo, axis) > kLeastExtent * longest)
-            bins.along[bins.count++] = empty_cut_bins(box, axis);
-    return bins;
+/// Of a range only every so many-th item weighs the planes, which is as good and much cheaper.
+int64_t stride_of(int64_t items) {
+    return std::clamp<int64_t>(items / kLeastSample, 1, kMostStride);
 }
 
-void fill_cut_bins(const PrimRef* refs, int64_t begin, int64_t end, const CornersOf& corners,
-                   AllCutBins& bins) {
-    for (int64_t k = begin; k < end; ++k)
-        for (int axis = 0; axis < bins.count; ++axis) add_cut(bins.along[axis], refs[k], corners);
-}
-
-AllCutBins cut_bins_of(const PrimRef* refs, const PrimRange& range, const SplitSettings& settings) {
-    AllCutBins bins = empty_cut_bins(range.box);
-    if (range.end - range.begin <= kGrain) {
-        fill_cut_bins(refs, range.begin, range.end, *settings.corners, bins);
-        return bins;
-    }
+CutBins cut_bins_of(const PrimRef* refs, const PrimRange& range, const SplitSettings& settings) {
+    CutBins bins = empty_cut_bins(range.box);
     std::mutex mutex;
-    parallel_for(
-        range.end - range.begin, kGrain, settings.threads, [&](int64_t begin, int64_t end) {
-            AllCutBins part = empty_cut_bins(range.box);
-            fill_cut_bins(refs, range.begin + begin, range.begin + end, *settings.corners, part);
-            const std::lock_guard<std::mutex> lock(mutex);
-            for (int axis = 0; axis < bins.count; ++axis)
-                merge_bins(bins.along[axis], part.along[axis]);
-        });
+    parallel_for(range.end - range.begin, kGrain, settings.threads,
+                 [&](int64_t begin, int64_t end) {
+                     CutBins part = empty_cut_bins(range.box);
+                     const int64_t step = stride_of(range.end - range.begin);
+                     for (int64_t k = begin; k < end; k += step)
+                         add_cut(part, refs[range.begin + k], *settings.corners);
+                     const std::lock_guard<std::mutex> lock(mutex);
+                     merge_bins(bins, part);
+                 });
     return bins;
 }
 
@@ -229,29 +231,31 @@ struct CutChoice {
     int64_t left_count = 0, right_count = 0;
 };
 
-/// The cheaper of `best` and the planes of `bins` whose halves are both smaller than the range.
-void choose_cut(const CutBins& bins, const PrimRange& range, int block_width, CutChoice* best) {
+/// The cheaper of `best` and the planes across `axis` whose halves are both smaller than the range.
+void choose_cut(const CutBins& bins, int axis, const PrimRange& range, int block_width,
+                CutChoice* best) {
     const int64_t items = range.end - range.begin;
+    const int64_t stride = stride_of(items);
     Box4 right[kCutBins];
     int64_t right_count[kCutBins];
     Box4 box = empty_box();
     int64_t count = 0;
     for (int k = kCutBins - 1; k > 0; --k) {
-        right[k] = box = united(box, bins.bin[k].box);
-        right_count[k] = count += bins.bin[k].exit;
+        right[k] = box = united(box, bins.box[axis][k]);
+        right_count[k] = count += bins.exit[axis][k] * stride;
     }
     box = empty_box();
     count = 0;
     for (int k = 1; k < kCutBins; ++k) {
-        box = united(box, bins.bin[k - 1].box);
-        count += bins.bin[k - 1].enter;
+        box = united(box, bins.box[axis][k - 1]);
+        count += bins.enter[axis][k - 1] * stride;
         if (count == 0 || right_count[k] == 0 || count >= items || right_count[k] >= items)
             continue;
         if (count + right_count[k] > items + range.room) continue;
         const double cost =
             cost_of(box, count, block_width) + cost_of(right[k], right_count[k], block_width);
         if (cost >= best->cost) continue;
-        *best = {cost, {bins.axis, bins.plane[k]}, box, right[k], count, right_count[k]};
+        *best = {cost, {axis, bins.plane[axis][k]}, box, right[k], count, right_count[k]};
     }
 }
 
@@ -272,7 +276,7 @@ Side side_of(const CutChoice& choice, const Box4& box) {
 
 /// The halves of a range while they are filled.
 struct CutHalves {
-    std::vector<PrimRef> refs[2];
+    PrimRefs refs[2];
     Extent extent[2] = {empty_extent(), empty_extent()};
     void add(int side, const PrimRef& ref) {
         refs[side].push_back(ref);
@@ -308,16 +312,20 @@ bool cut_range(PrimRef* refs, const PrimRange& range, const SplitSettings& setti
                double least_cost, PrimRange halves[2]) {
     CutChoice choice;
     choice.cost = least_cost;
-    const AllCutBins bins = cut_bins_of(refs, range, settings);
-    for (int axis = 0; axis < bins.count; ++axis)
-        choose_cut(bins.along[axis], range, settings.block_width, &choice);
+    const CutBins bins = cut_bins_of(refs, range, settings);
+    for (int axis = 0; axis < 3; ++axis)
+        if (bins.used[axis]) choose_cut(bins, axis, range, settings.block_width, &choice);
     if (choice.left_count == 0) return false;
 
     CutHalves parts;
     for (int64_t k = range.begin; k < range.end; ++k) sort_ref(refs[k], settings, choice, parts);
-    if (parts.refs[0].empty() || parts.refs[1].empty()) return false;
-    const auto middle = range.begin + static_cast<int64_t>(parts.refs[0].size());
-    const auto end = middle + static_cast<int64_t>(parts.refs[1].size());
+    // Slabs have counted as well as floats go.
+    const int64_t items = range.end - range.begin;
+    const auto left = static_cast<int64_t>(parts.refs[0].size());
+    const auto right = static_cast<int64_t>(parts.refs[1].size());
+    if (left == 0 || right == 0 || std::max(left, right) >= items) return false;
+    if (left + right > items + range.room) return false;
+    const int64_t middle = range.begin + left, end = middle + right;
     std::copy(parts.refs[0].begin(), parts.refs[0].end(), refs + range.begin);
     std::copy(parts.refs[1].begin(), parts.refs[1].end(), refs + middle);
     halves[0] = range_of(range.begin, middle, parts.extent[0]);

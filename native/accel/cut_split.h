@@ -14,7 +14,6 @@ bool cut_range(PrimRef* refs, const PrimRange& range, const SplitSettings& setti
 /// Sets the need of every reference and returns how many cuts the mesh is worth, a quarter of the
 /// references at most; 0 where cutting would save little, as on smooth meshes. Needs grow with the
 /// box that a triangle does not fill (Karras and Aila 2013, section 4).
-int64_t measure_needs(std::vector<PrimRef>& refs, const Bounds& bounds,
-                      const SplitSettings& settings);
+int64_t measure_needs(PrimRefs& refs, const Bounds& bounds, const SplitSettings& settings);
 
 }  // namespace trg

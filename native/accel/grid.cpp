@@ -52,13 +52,13 @@ void for_each_cell(const Grid& grid, const CellRange& range, Visit visit) {
                 visit((int64_t{z} * grid.size[1] + y) * grid.size[0] + x);
 }
 
-int64_t count_entries(const Grid& grid, const std::vector<PrimRef>& refs) {
+int64_t count_entries(const Grid& grid, const PrimRefs& refs) {
     int64_t entries = 0;
     for (const PrimRef& ref : refs) entries += cells_in(cells_of(grid, box_of(ref)));
     return entries;
 }
 
-std::vector<uint32_t> count_items(const Grid& grid, const std::vector<PrimRef>& refs) {
+std::vector<uint32_t> count_items(const Grid& grid, const PrimRefs& refs) {
     std::vector<uint32_t> counts(cell_count(grid), 0);
     for (const PrimRef& ref : refs)
         for_each_cell(grid, cells_of(grid, box_of(ref)), [&](int64_t cell) { ++counts[cell]; });
@@ -79,7 +79,7 @@ double blocks_for(uint32_t items) {
 /// Sum over cells of `cost_of(items)`, weighed by how often a line meets a cell; infinite where the
 /// lists would grow out of proportion.
 template <class CostOf>
-double cost_of_grid(const Grid& grid, const std::vector<PrimRef>& refs, CostOf cost_of) {
+double cost_of_grid(const Grid& grid, const PrimRefs& refs, CostOf cost_of) {
     const auto most = static_cast<int64_t>(kMostEntriesPerItem * static_cast<double>(refs.size()));
     if (count_entries(grid, refs) > most) return HUGE_VAL;
     double sum = kStepCost * static_cast<double>(cell_count(grid));
@@ -144,17 +144,17 @@ Grid lay_grid(const Bounds& bounds, double cells) {
     return grid;
 }
 
-double expected_cost(const Grid& grid, const std::vector<PrimRef>& refs) {
+double expected_cost(const Grid& grid, const PrimRefs& refs) {
     return cost_of_grid(grid, refs, blocks_for);
 }
 
-Grid best_grid(const Bounds& bounds, const std::vector<PrimRef>& refs) {
+Grid best_grid(const Bounds& bounds, const PrimRefs& refs) {
     const auto items = static_cast<double>(refs.size());
     return search_grid(bounds, items, kMostCellsPerItem * items + 64,
                        [&](const Grid& grid) { return expected_cost(grid, refs); });
 }
 
-Grid best_outer_grid(const Bounds& bounds, const std::vector<PrimRef>& refs) {
+Grid best_outer_grid(const Bounds& bounds, const PrimRefs& refs) {
     const auto items = static_cast<double>(refs.size());
     return search_grid(bounds, std::max(1.0, items / 8), items + 64, [&](const Grid& grid) {
         return cost_of_grid(grid, refs, cost_when_divided);
@@ -175,7 +175,7 @@ Bounds cell_bounds(const Grid& grid, int64_t cell) {
     return {{lo[0], lo[1], lo[2]}, {hi[0], hi[1], hi[2]}};
 }
 
-CellLists list_cells(const Grid& grid, const std::vector<PrimRef>& refs) {
+CellLists list_cells(const Grid& grid, const PrimRefs& refs) {
     if (count_entries(grid, refs) > kMostEntries)
         throw std::length_error("the grid grows too large");
     const int64_t cells = cell_count(grid);

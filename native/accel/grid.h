@@ -50,19 +50,19 @@ Grid lay_grid(const Bounds& bounds, double cells);
 
 /// What a ray that crosses the whole grid is expected to cost, in block tests, when the items are
 /// `refs`: a random line meets a convex cell as often as the cell's share of the box's surface.
-double expected_cost(const Grid& grid, const std::vector<PrimRef>& refs);
+double expected_cost(const Grid& grid, const PrimRefs& refs);
 
 /// The resolution at which `expected_cost` is least, searched by doubling and halving.
-Grid best_grid(const Bounds& bounds, const std::vector<PrimRef>& refs);
+Grid best_grid(const Bounds& bounds, const PrimRefs& refs);
 
 /// A coarser grid whose full cells are meant to be divided again.
-Grid best_outer_grid(const Bounds& bounds, const std::vector<PrimRef>& refs);
+Grid best_outer_grid(const Bounds& bounds, const PrimRefs& refs);
 
 /// Box of cell `cell` of the grid.
 Bounds cell_bounds(const Grid& grid, int64_t cell);
 
 /// The indices of the references that touch each cell, closed and widened by 1e-4 of a cell, in
 /// ascending order. Throws length_error above 2^31 entries.
-CellLists list_cells(const Grid& grid, const std::vector<PrimRef>& refs);
+CellLists list_cells(const Grid& grid, const PrimRefs& refs);
 
 }  // namespace trg

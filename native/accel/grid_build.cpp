@@ -41,17 +41,17 @@ Bounds common(const Bounds& a, const Bounds& b) {
 
 /// Whether most lines through `box` meet the boxes of most references, so that nothing can be
 /// gained by dividing it.
-bool is_overlapping(const Bounds& box, const std::vector<PrimRef>& refs) {
+bool is_overlapping(const Bounds& box, const PrimRefs& refs) {
     double sum = 0;
     for (const PrimRef& ref : refs) sum += half_area(common(box, box_of(ref)));
     return sum > kMostOverlap * half_area(box) * static_cast<double>(refs.size());
 }
 
-void divide_cells(Division* division, const std::vector<PrimRef>& refs, int level, int threads);
+void divide_cells(Division* division, const PrimRefs& refs, int level, int threads);
 
-Division divide_cell(const Bounds& box, const std::vector<PrimRef>& refs, const int32_t* items,
-                     int64_t count, int level) {
-    std::vector<PrimRef> inside;
+Division divide_cell(const Bounds& box, const PrimRefs& refs, const int32_t* items, int64_t count,
+                     int level) {
+    PrimRefs inside;
     inside.reserve(count);
     Bounds held = empty_bounds();
     for (int64_t k = 0; k < count; ++k) {
@@ -75,7 +75,7 @@ Division divide_cell(const Bounds& box, const std::vector<PrimRef>& refs, const 
 }
 
 /// Divides the full cells of `division`, itself at `level`.
-void divide_cells(Division* division, const std::vector<PrimRef>& refs, int level, int threads) {
+void divide_cells(Division* division, const PrimRefs& refs, int level, int threads) {
     const CellLists& lists = division->lists;
     const int64_t cells = cell_count(division->grid);
     int64_t fullest = 0;
@@ -154,8 +154,8 @@ void cut_into_runs(BlockItems& runs, int64_t first, int64_t last) {
         runs.begin.push_back(std::min<int64_t>(at + kWidth, last));
 }
 
-BlockItems build_grid(const std::vector<PrimRef>& refs, const Bounds& bounds, bool divide,
-                      int threads, GridIndex* index) {
+BlockItems build_grid(const PrimRefs& refs, const Bounds& bounds, bool divide, int threads,
+                      GridIndex* index) {
     Division whole;
     whole.grid = divide ? best_outer_grid(bounds, refs) : best_grid(bounds, refs);
     whole.lists = list_cells(whole.grid, refs);

@@ -16,7 +16,7 @@ void cut_into_runs(BlockItems& runs, int64_t first, int64_t last);
 
 /// Lays `index` over the references within `bounds` and returns its blocks. With `divide`, cells
 /// where a finer grid is expected to be quicker get one. Does not depend on `threads`.
-BlockItems build_grid(const std::vector<PrimRef>& refs, const Bounds& bounds, bool divide,
-                      int threads, GridIndex* index);
+BlockItems build_grid(const PrimRefs& refs, const Bounds& bounds, bool divide, int threads,
+                      GridIndex* index);
 
 }  // namespace trg

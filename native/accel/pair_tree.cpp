@@ -22,7 +22,7 @@ int longest_axis(const Bounds& box) {
     return x >= y && x >= z ? 0 : y >= z ? 1 : 2;
 }
 
-Bounds measure(const std::vector<PrimRef>& refs, int64_t begin, int64_t end) {
+Bounds measure(const PrimRefs& refs, int64_t begin, int64_t end) {
     Bounds box = empty_bounds();
     for (int64_t k = begin; k < end; ++k) box = united(box, box_of(refs[k]));
     return box;
@@ -30,7 +30,7 @@ Bounds measure(const std::vector<PrimRef>& refs, int64_t begin, int64_t end) {
 
 /// Moves the half of [begin, end) that lies lower along `axis` to the front; equal centres go by
 /// item.
-int64_t halve(std::vector<PrimRef>& refs, int64_t begin, int64_t end, int axis) {
+int64_t halve(PrimRefs& refs, int64_t begin, int64_t end, int axis) {
     const int64_t middle = begin + (end - begin) / 2;
     std::nth_element(refs.begin() + begin, refs.begin() + middle, refs.begin() + end,
                      [axis](const PrimRef& a, const PrimRef& b) {
@@ -42,7 +42,7 @@ int64_t halve(std::vector<PrimRef>& refs, int64_t begin, int64_t end, int axis) 
 
 }  // namespace
 
-PairTree build_pair_tree(std::vector<PrimRef>& refs) {
+PairTree build_pair_tree(PrimRefs& refs) {
     PairTree tree;
     tree.nodes.push_back({});
     std::vector<Part> open{{0, static_cast<int64_t>(refs.size()), 0}};

@@ -23,6 +23,6 @@ struct PairTree {
 constexpr int64_t kPairLeaf = 4;
 
 /// The tree over `refs`, which are put in the order of the leaves. At most 32 levels deep.
-PairTree build_pair_tree(std::vector<PrimRef>& refs);
+PairTree build_pair_tree(PrimRefs& refs);
 
 }  // namespace trg

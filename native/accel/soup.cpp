@@ -13,8 +13,10 @@ namespace {
 constexpr int64_t kGrain = 1 << 13;
 
 /// References to the sound triangles, in order.
-std::vector<PrimRef> gather_refs(const SoupSource& source, int threads) {
-    std::vector<PrimRef> refs(source.count);
+PrimRefs gather_refs(const SoupSource& source, int threads) {
+    PrimRefs refs;
+    refs.reserve(source.count + source.count / 4);  // so that parts of cut triangles find room
+    refs.resize(source.count);
     std::atomic<int64_t> unsound{0};
     parallel_for(source.count, kGrain, threads, [&](int64_t begin, int64_t end) {
         for (int64_t item = begin; item < end; ++item) {
@@ -31,54 +33,72 @@ std::vector<PrimRef> gather_refs(const SoupSource& source, int threads) {
     return refs;
 }
 
-/// Packs runs of references, run k into block k; `run(k)` gives {pointer to item numbers, count}.
-template <class Block, class Put>
-void pack_blocks(AlignedVector<Block>& blocks, const Block& empty, int threads, Put put) {
+/// The items of one block, ascending: the first of equal hits is the one that counts.
+struct LeafItems {
+    int32_t item[kWidth];
+    int count;
+};
+
+LeafItems items_of(const PrimRefs& refs, const LeafRange& leaf) {
+    LeafItems items;
+    for (int32_t k = 0; k < leaf.count; ++k) items.item[k] = refs[leaf.begin + k].item;
+    std::sort(items.item, items.item + leaf.count);
+    // Parts of one triangle may have met again.
+    items.count = static_cast<int>(std::unique(items.item, items.item + leaf.count) - items.item);
+    return items;
+}
+
+LeafItems items_of(const BlockItems& runs, int64_t block) {
+    LeafItems items;
+    items.count = static_cast<int>(runs.begin[block + 1] - runs.begin[block]);
+    std::copy_n(runs.items.begin() + runs.begin[block], items.count, items.item);
+    return items;
+}
+
+template <class Block, class ItemsOf>
+void pack_blocks(AlignedVector<Block>& blocks, const Block& empty, const SoupSource& source,
+                 int threads, ItemsOf items_of_block) {
     const auto count = static_cast<int64_t>(blocks.size());
     parallel_for(count, kGrain / kWidth, threads, [&](int64_t begin, int64_t end) {
         for (int64_t k = begin; k < end; ++k) {
+            const LeafItems items = items_of_block(k);
             blocks[k] = empty;
-            put(blocks[k], k);
+            for (int lane = 0; lane < items.count; ++lane)
+                put_triangle(blocks[k], lane, corners_of(source, items.item[lane]),
+                             items.item[lane]);
         }
     });
 }
 
-void pack_soup(Soup& soup, const SoupSource& source, const BlockItems& runs,
-               const SoupSettings& settings) {
-    const auto put = [&](auto& block, int64_t k) {
-        for (int64_t at = runs.begin[k]; at < runs.begin[k + 1]; ++at) {
-            const int32_t item = runs.items[at];
-            put_triangle(block, static_cast<int>(at - runs.begin[k]), corners_of(source, item),
-                         item);
-        }
-    };
-    const size_t count = runs.begin.size() - 1;
+/// Packs `count` blocks of triangles, whose items `items_of_block(block)` gives.
+template <class ItemsOf>
+void pack_soup(Soup& soup, const SoupSource& source, size_t count, const SoupSettings& settings,
+               ItemsOf items_of_block) {
     if (settings.triangle_test == TriangleTest::classic) {
         soup.plane_blocks.resize(count);
-        pack_blocks(soup.plane_blocks, empty_plane_block(), settings.threads, put);
+        pack_blocks(soup.plane_blocks, empty_plane_block(), source, settings.threads,
+                    items_of_block);
     } else {
         soup.corner_blocks.resize(count);
-        pack_blocks(soup.corner_blocks, empty_corner_block(), settings.threads, put);
+        pack_blocks(soup.corner_blocks, empty_corner_block(), source, settings.threads,
+                    items_of_block);
     }
 }
 
-BlockItems runs_of_leaves(const std::vector<LeafRange>& leaves, const std::vector<PrimRef>& refs) {
-    BlockItems runs;
-    runs.items.reserve(refs.size());
-    runs.begin.assign(1, 0);
-    for (const LeafRange& leaf : leaves) {
-        for (int32_t k = 0; k < leaf.count; ++k) runs.items.push_back(refs[leaf.begin + k].item);
-        // Ascending items make the first of equal hits the one that counts.
-        const auto first = runs.items.end() - leaf.count;
-        std::sort(first, runs.items.end());
-        // Parts of one triangle may have met again.
-        runs.items.erase(std::unique(first, runs.items.end()), runs.items.end());
-        runs.begin.push_back(static_cast<int64_t>(runs.items.size()));
-    }
-    return runs;
+void pack_leaves(Soup& soup, const SoupSource& source, const PrimRefs& refs,
+                 std::vector<LeafRange>& leaves, const SoupSettings& settings) {
+    pack_soup(soup, source, leaves.size(), settings,
+              [&](int64_t k) { return items_of(refs, leaves[k]); });
+    leaves = {};
 }
 
-BlockItems runs_of_all(const std::vector<PrimRef>& refs) {
+void pack_runs(Soup& soup, const SoupSource& source, const BlockItems& runs,
+               const SoupSettings& settings) {
+    pack_soup(soup, source, runs.begin.size() - 1, settings,
+              [&](int64_t k) { return items_of(runs, k); });
+}
+
+BlockItems runs_of_all(const PrimRefs& refs) {
     BlockItems runs;
     for (const PrimRef& ref : refs) runs.items.push_back(ref.item);
     runs.begin.assign(1, 0);
@@ -86,40 +106,40 @@ BlockItems runs_of_all(const std::vector<PrimRef>& refs) {
     return runs;
 }
 
-BlockItems index_refs(Soup& soup, std::vector<PrimRef>& refs, const SoupSource& source,
-                      int threads) {
-    BlockItems runs;
+/// Lays the index over the references, and packs their triangles in its order.
+void index_refs(Soup& soup, PrimRefs& refs, const SoupSource& source,
+                const SoupSettings& settings) {
+    const int threads = settings.threads;
     switch (soup.accel) {
         case AccelKind::grid:
-        case AccelKind::grid2:
-            return build_grid(refs, soup.bounds, soup.accel == AccelKind::grid2, threads,
-                              &soup.grid);
+        case AccelKind::grid2: {
+            const bool divide = soup.accel == AccelKind::grid2;
+            const BlockItems runs = build_grid(refs, soup.bounds, divide, threads, &soup.grid);
+            refs = {};
+            return pack_runs(soup, source, runs, settings);
+        }
         case AccelKind::tree:
             soup.pairs = build_pair_tree(refs);
-            runs = runs_of_leaves(soup.pairs.leaves, refs);
-            soup.pairs.leaves = {};
-            return runs;
+            return pack_leaves(soup, source, refs, soup.pairs.leaves, settings);
         case AccelKind::bvh: {
             const CornersOf corners = [&](int64_t item) { return corners_of(source, item); };
             soup.tree = build_tree(refs, {kWidth, threads, &corners});
-            runs = runs_of_leaves(soup.tree.leaves, refs);
-            soup.tree.leaves = {};
-            return runs;
+            soup.bounds = soup.tree.bounds;
+            return pack_leaves(soup, source, refs, soup.tree.leaves, settings);
         }
         default:
-            return runs_of_all(refs);
+            return pack_runs(soup, source, runs_of_all(refs), settings);
     }
 }
 
 void index_soup(Soup& soup, const SoupSource& source, const SoupSettings& settings) {
-    std::vector<PrimRef> refs = gather_refs(source, settings.threads);
+    PrimRefs refs = gather_refs(source, settings.threads);
     soup.triangles = static_cast<int64_t>(refs.size());
     soup.degenerate = source.count - soup.triangles;
-    for (const PrimRef& ref : refs) soup.bounds = united(soup.bounds, box_of(ref));
     soup.accel = refs.empty() ? AccelKind::none : settings.accel;
-    const BlockItems runs = index_refs(soup, refs, source, settings.threads);
-    refs = {};
-    pack_soup(soup, source, runs, settings);
+    if (soup.accel != AccelKind::bvh)
+        soup.bounds = measure_range(refs.data(), 0, soup.triangles, settings.threads).box;
+    index_refs(soup, refs, source, settings);
     soup.built_cost = tree_cost(soup.tree);
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "accel/triangle_block.h"
+#include "base/aligned.h"
 #include "geom/bounds.h"
 
 namespace trg {
@@ -26,6 +27,9 @@ TRG_FN Bounds box_of(const PrimRef& ref) {
     return {ref.lo, ref.hi};
 }
 
+/// Uninitialised where it is made by size alone.
+using PrimRefs = AlignedVector<PrimRef>;
+
 /// A run of references with the box of them all and the box of their (doubled) centres. After `end`
 /// there is room for `room` more, which cuts may fill.
 struct PrimRange {
@@ -40,14 +44,14 @@ struct PrimRange {
 using CornersOf = std::function<TriangleCorners(int64_t item)>;
 
 struct SplitSettings {
-    int block_width;  // items are paid for in blocks of this many
+    int block_width;  // items are paid for in blocks of this many, a power of two
     int threads;
     const CornersOf* corners = nullptr;  // null: items are never cut
     double root_area = 0;                // half the surface of the whole, where items may be cut
 };
 
-/// Range of refs[begin..end), its boxes measured.
-PrimRange measure_range(const PrimRef* refs, int64_t begin, int64_t end);
+/// Range of refs[begin..end), its boxes measured. Does not depend on the number of threads.
+PrimRange measure_range(const PrimRef* refs, int64_t begin, int64_t end, int threads = 1);
 
 /// Reorders the references of `range` and returns its two halves, neither of them empty. Falls back
 /// to halves by count where centres coincide. Does not depend on the number of threads.

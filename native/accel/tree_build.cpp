@@ -25,7 +25,7 @@ struct Task {
 };
 
 struct Builder {
-    std::vector<PrimRef>& refs;
+    PrimRefs& refs;
     const SplitSettings settings;
     const int64_t task_size;  // ranges up to this size become tasks; 0: none does
     std::vector<Task> tasks;
@@ -120,16 +120,40 @@ NodeRef moved_ref(NodeRef ref, uint32_t node_shift, uint32_t leaf_shift) {
     return ref + (ref & kLeafBit ? leaf_shift : node_shift);
 }
 
-/// Appends `part` to `tree`; returns the reference of its root there.
-NodeRef append_tree(Tree& tree, const Tree& part) {
-    const auto node_shift = static_cast<uint32_t>(tree.nodes.size());
-    const auto leaf_shift = static_cast<uint32_t>(tree.leaves.size());
-    for (WideNode node : part.nodes) {
-        for (NodeRef& child : node.child) child = moved_ref(child, node_shift, leaf_shift);
-        tree.nodes.push_back(node);
+/// Where the nodes and leaves of a part begin in the whole.
+struct Shift {
+    uint32_t nodes, leaves;
+};
+
+/// Copies `part` into its place in `tree`.
+void place_part(const Tree& part, const Shift& shift, Tree& tree) {
+    for (size_t k = 0; k < part.nodes.size(); ++k) {
+        WideNode& node = tree.nodes[shift.nodes + k];
+        node = part.nodes[k];
+        for (NodeRef& child : node.child) child = moved_ref(child, shift.nodes, shift.leaves);
     }
-    tree.leaves.insert(tree.leaves.end(), part.leaves.begin(), part.leaves.end());
-    return moved_ref(part.root, node_shift, leaf_shift);
+    std::copy(part.leaves.begin(), part.leaves.end(), tree.leaves.begin() + shift.leaves);
+}
+
+/// Joins the parts, one for each task, to the upper tree in the order of the tasks.
+void join_parts(Builder& upper, std::vector<Tree>& parts) {
+    Tree& tree = upper.tree;
+    std::vector<Shift> shifts;
+    size_t nodes = tree.nodes.size(), leaves = tree.leaves.size();
+    for (size_t k = 0; k < parts.size(); ++k) {
+        shifts.push_back({static_cast<uint32_t>(nodes), static_cast<uint32_t>(leaves)});
+        const NodeRef root = moved_ref(parts[k].root, shifts[k].nodes, shifts[k].leaves);
+        tree.nodes[upper.tasks[k].node].child[upper.tasks[k].lane] = root;
+        nodes += parts[k].nodes.size();
+        leaves += parts[k].leaves.size();
+    }
+    tree.nodes.resize(nodes);
+    tree.leaves.resize(leaves);
+    parallel_for(static_cast<int64_t>(parts.size()), 1, upper.settings.threads,
+                 [&](int64_t k, int64_t) {
+                     place_part(parts[k], shifts[k], tree);
+                     parts[k] = {};
+                 });
 }
 
 /// What the ranges of a tree over `all` are divided by: cuts need room.
@@ -140,13 +164,13 @@ SplitSettings settings_for(const SplitSettings& settings, const PrimRange& all, 
 
 }  // namespace
 
-Tree build_tree(std::vector<PrimRef>& refs, const SplitSettings& settings) {
+Tree build_tree(PrimRefs& refs, const SplitSettings& settings) {
     const auto count = static_cast<int64_t>(refs.size());
     if (count > kMostBlocks) throw std::length_error("more items than a tree can hold");
     if (count == 0) return {};
 
     // The upper part, whose large ranges are binned by all threads together.
-    PrimRange all = measure_range(refs.data(), 0, count);
+    PrimRange all = measure_range(refs.data(), 0, count, settings.threads);
     all.room = settings.corners ? measure_needs(refs, all.box, settings) : 0;
     const SplitSettings upper_settings = settings_for(settings, all, settings.threads);
     refs.resize(count + all.room);
@@ -155,18 +179,18 @@ Tree build_tree(std::vector<PrimRef>& refs, const SplitSettings& settings) {
     upper.tree.root = build_range(upper, all, 0);
     upper.tree.bounds = all.box;
 
-    // The subtrees, a thread each, joined in the order of the tree.
+    // The subtrees, a thread each.
     std::vector<Tree> parts(upper.tasks.size());
+    const SplitSettings lower_settings = settings_for(settings, all, 1);
     parallel_for(static_cast<int64_t>(parts.size()), 1, settings.threads, [&](int64_t k, int64_t) {
-        Builder lower{refs, settings_for(settings, all, 1), 0, {}, {}};
-        lower.tree.root = build_range(lower, upper.tasks[k].range, upper.tasks[k].level);
+        const Task& task = upper.tasks[k];
+        Builder lower{refs, lower_settings, 0, {}, {}};
+        lower.tree.nodes.reserve(item_count(task.range) / (2 * settings.block_width) + 1);
+        lower.tree.leaves.reserve(item_count(task.range) / (settings.block_width / 2 + 1) + 1);
+        lower.tree.root = build_range(lower, task.range, task.level);
         parts[k] = std::move(lower.tree);
     });
-    for (size_t k = 0; k < parts.size(); ++k) {
-        const NodeRef child = append_tree(upper.tree, parts[k]);
-        upper.tree.nodes[upper.tasks[k].node].child[upper.tasks[k].lane] = child;
-        parts[k] = {};
-    }
+    join_parts(upper, parts);
     return std::move(upper.tree);
 }
 

@@ -23,7 +23,7 @@ struct Tree {
 /// The tree over `refs`, which are put in the order of the leaves, with gaps where items could be
 /// but were not cut. A leaf is one block of at most `settings.block_width` items; an item that was
 /// cut is in several. The tree does not depend on the number of threads.
-Tree build_tree(std::vector<PrimRef>& refs, const SplitSettings& settings);
+Tree build_tree(PrimRefs& refs, const SplitSettings& settings);
 
 /// What a random ray that meets the tree's box is expected to cost, in boxes met: the sum of all
 /// boxes' surfaces over the surface of the whole; 0 without nodes.

@@ -42,7 +42,11 @@ CornerBlock empty_corner_block() {
 }
 
 void put_triangle(CornerBlock& block, int lane, const TriangleCorners& triangle, int32_t prim) {
-    for (int k = 0; k < 3; ++k) put_vector(block.corner[k], lane, to_double(triangle.p[k]));
+    for (int k = 0; k < 3; ++k) {
+        block.corner[k][0][lane] = triangle.p[k].x;
+        block.corner[k][1][lane] = triangle.p[k].y;
+        block.corner[k][2][lane] = triangle.p[k].z;
+    }
     block.prim[lane] = prim;
 }
 

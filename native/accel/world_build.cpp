@@ -126,8 +126,8 @@ Placement placement_of(const World& world, const WorldIndex& index, int32_t numb
 }
 
 /// Boxes of all that has one, by instance, and in `index.unbounded` what has none.
-std::vector<PrimRef> gather_boxes(const World& world, WorldIndex& index) {
-    std::vector<PrimRef> refs;
+PrimRefs gather_boxes(const World& world, WorldIndex& index) {
+    PrimRefs refs;
     refs.reserve(world.instances.size());
     if (index.merged && index.merged->triangles > 0)
         refs.push_back(make_ref(index.merged->bounds, -1));
@@ -163,7 +163,7 @@ void place_soups(const World& world, WorldIndex& index, int threads) {
     index.placements = {};
     index.unbounded = {};
     index.top = {};
-    std::vector<PrimRef> refs = gather_boxes(world, index);
+    PrimRefs refs = gather_boxes(world, index);
     if (refs.size() > 1) index.top = build_tree(refs, {1, threads});
     index.placements.reserve(refs.size());
     if (refs.size() == 1) index.placements.push_back(placement_of(world, index, refs[0].item));

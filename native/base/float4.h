@@ -45,6 +45,24 @@ TRG_FN Float4 max4(Float4 a, Float4 b) {
 TRG_FN void truncate4(int* p, Float4 a) {
     _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm_cvttps_epi32(a.v));
 }
+/// Number by number, x where a < b, else y; y where one of a and b is NaN.
+TRG_FN Float4 select_less4(Float4 a, Float4 b, Float4 x, Float4 y) {
+    const __m128 less = _mm_cmplt_ps(a.v, b.v);
+    return {_mm_or_ps(_mm_and_ps(less, x.v), _mm_andnot_ps(less, y.v))};
+}
+/// The first three columns of three rows, as rows; the fourth number of each means nothing.
+TRG_FN void transpose3(Float4 rows[3]) {
+    const __m128 low = _mm_unpacklo_ps(rows[0].v, rows[1].v);
+    const __m128 high = _mm_unpackhi_ps(rows[0].v, rows[1].v);
+    const __m128 last = rows[2].v;
+    rows[0].v = _mm_movelh_ps(low, last);
+    rows[1].v = _mm_shuffle_ps(low, last, _MM_SHUFFLE(3, 1, 3, 2));
+    rows[2].v = _mm_shuffle_ps(high, last, _MM_SHUFFLE(3, 2, 1, 0));
+}
+/// Integers, at an address aligned to 16 bytes, as numbers.
+TRG_FN Float4 load_ints4(const int* p) {
+    return {_mm_cvtepi32_ps(_mm_load_si128(reinterpret_cast<const __m128i*>(p)))};
+}
 
 #else
 
@@ -83,6 +101,19 @@ TRG_FN Float4 max4(Float4 a, const Float4& b) {
 }
 TRG_FN void truncate4(int* p, const Float4& a) {
     for (int k = 0; k < 4; ++k) p[k] = static_cast<int>(a.v[k]);
+}
+TRG_FN Float4 select_less4(const Float4& a, const Float4& b, const Float4& x, Float4 y) {
+    for (int k = 0; k < 4; ++k) y.v[k] = a.v[k] < b.v[k] ? x.v[k] : y.v[k];
+    return y;
+}
+TRG_FN void transpose3(Float4 rows[3]) {
+    const Float4 a = rows[0], b = rows[1], c = rows[2];
+    for (int k = 0; k < 3; ++k) rows[k] = {{a.v[k], b.v[k], c.v[k], 0}};
+}
+TRG_FN Float4 load_ints4(const int* p) {
+    Float4 a;
+    for (int k = 0; k < 4; ++k) a.v[k] = static_cast<float>(p[k]);
+    return a;
 }
 
 #endif
