@@ -13,7 +13,6 @@ import bpy
 
 from ... import lang
 
-
 MAX_INTEGER = 2.0**31 - 1.0
 
 
