@@ -84,7 +84,8 @@ def run_command(module: ModuleType, args: argparse.Namespace) -> int:
     except OSError as failure:
         if isinstance(failure, BrokenPipeError):
             raise
-        return fail(str(failure), WRONG)
+        named = failure.filename is not None and failure.strerror
+        return fail(f"{failure.filename}: {failure.strerror}" if named else str(failure), WRONG)
     except Exception as failure:
         code = exit_code(failure)
         if code is None:
