@@ -315,6 +315,8 @@ class ExpressionEmitter:
             tested = arguments[0]
             field = constant("T_" + tested.name, node.span)
             return call("D_", [self.value(tested.object), field], node.span)
+        if callee.name == "object" and not arguments:
+            return call("O_", [], node.span)
         name = self.parts.place_name(callee.name, node.span)
         return call(name, [self.value(a) for a in arguments], node.span)
 

@@ -40,7 +40,7 @@ class Helpers:
         made.update(
             u_=rt.undef, A_=_ABSENT, P_=PAUSE, G_=GeneratorType, Y_=type, S_=iter(()), T_=rt.take_step,
             B_=self.set_after, E_=self.set_field, D_=self.is_defined, F_=self.function, L_=rt.compare,
-            M_=self.method, N_=rt.logical_not, O_=rt.new_object, R_=self.missing, W_=self.check_type,
+            M_=self.method, N_=rt.logical_not, O_=Obj, R_=self.missing, W_=self.check_type,
             Z_=self.counted, K_=rt.ticks(), C_=compress, H_=self.new_list, I_=self.elements,
             J_=self.set_element, Q_=next, V_=self.parameter,
         )  # fmt: skip

@@ -15,7 +15,8 @@ from .limits import MAX_CALL_DEPTH, MAX_OPERATOR_DEPTH, HostOptions
 from .memory import resident_bytes
 from .scene import RenderModes
 from .source import Span
-from .values import COMPARISON, Obj, Str, TrgError, Undef, overload_of, trg_frame
+from .texts import SHORT_TEXT, TextBuffer
+from .values import COMPARISON, Str, TrgError, Undef, overload_of, trg_frame
 
 if TYPE_CHECKING:
     from .library.mth import Pcg32
@@ -151,13 +152,13 @@ class Runtime:
         self._lines_this_frame = 0
         self._seconds_start = time.thread_time()
 
-    def hold_text(self, text: str) -> None:
-        """Count a new string; raises TrgError above the limit for one or for all."""
-        if len(text) > self.limits.max_string:
-            raise TrgError("E605", "raise_other", option="max_string", limit=self.limits.max_string)
-        size = sys.getsizeof(text) if text else 0
-        if self.live_text + size > self.limits.max_text_bytes:
-            megabytes = self.limits.max_text_bytes // 1048576
+    def hold_text(self, length: int, size: int) -> None:
+        """Count `size` more bytes for a string of `length`; raises TrgError above the limit for one or all."""
+        limits = self.limits
+        if length > limits.max_string:
+            raise TrgError("E605", "raise_other", option="max_string", limit=limits.max_string)
+        if self.live_text + size > limits.max_text_bytes:
+            megabytes = limits.max_text_bytes // 1048576
             raise TrgError("E606", "raise_other", option="max_text_bytes", limit=megabytes)
         self.live_text += size
         self.work_on_text(size)
@@ -258,10 +259,13 @@ class Runtime:
         return TrgError("E610", "raise_other", option="max_shapes", limit=self.limits.max_shapes)
 
     def text(self, text: str) -> Str:
-        return Str(self, text)
-
-    def new_object(self) -> Obj:
-        return Obj(self)
+        """A string value. Raises TrgError above the limits."""
+        length = len(text)
+        if length > SHORT_TEXT:
+            return Str(self, TextBuffer(self, text), length)
+        if length > self.limits.max_string:
+            self.hold_text(length, 0)
+        return Str(self, text, length)
 
     def step_operator(self) -> str:
         """`++` or `--` when that is the operator being run, else an empty string."""

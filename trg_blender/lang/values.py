@@ -13,6 +13,8 @@ from collections.abc import Callable, Mapping
 from types import FrameType, FunctionType, GeneratorType, MethodType
 from typing import TYPE_CHECKING
 
+from .texts import SHORT_TEXT, TextBuffer
+
 if TYPE_CHECKING:
     from .runtime import Runtime
 
@@ -143,39 +145,63 @@ class Undef(Value):
 
 
 class Str(Value):
-    """A string. Its text counts towards the live total of the program while it lives."""
+    """A string: a short one holds its text, a longer one the first `length` characters of a buffer."""
 
-    __slots__ = ("rt", "text")
+    __slots__ = ("held", "length", "rt")
     kind = "str"
 
-    def __init__(self, rt: Runtime, text: str) -> None:
-        self.text = ""
+    def __init__(self, rt: Runtime, held: str | TextBuffer, length: int) -> None:
         self.rt = rt
-        rt.hold_text(text)
-        self.text = text
+        self.held = held
+        self.length = length
 
-    def __del__(self) -> None:
-        self.rt.live_text -= sys.getsizeof(self.text) if self.text else 0
+    @property
+    def text(self) -> str:
+        held = self.held
+        if type(held) is str:
+            return held
+        if held.length == self.length:  # type: ignore[union-attr]
+            return held.text()  # type: ignore[union-attr]
+        text = held.text()[: self.length]  # type: ignore[union-attr]
+        self.held = text if len(text) <= SHORT_TEXT else TextBuffer(self.rt, text)
+        return text
 
     def __bool__(self) -> bool:
-        return bool(self.text)
+        return self.length != 0
 
     def __eq__(self, other: object) -> bool:
-        return type(other) is Str and other.text == self.text
+        return type(other) is Str and other.length == self.length and other.text == self.text
 
     def __hash__(self) -> int:
         return hash(self.text)
 
     def __add__(self, other: object) -> object:
+        held = self.held
         if type(other) is Str:
-            return Str(self.rt, self.text + other.text)
+            piece = other.held
+            if type(held) is TextBuffer and type(piece) is str and held.length == self.length:
+                length = self.length + other.length
+                if self.length < length <= held.room and piece.isascii():
+                    held.write(piece)
+                    held.length = length
+                    return Str(self.rt, held, length)
+            return self._append(other.text)
         if type(other) is float:
-            return Str(self.rt, self.text + format_number(other))
+            return self._append(format_number(other))
         return compute("+", self, other)
+
+    def _append(self, piece: str) -> Str:
+        held, rt = self.held, self.rt
+        if not piece:
+            return self
+        if type(held) is TextBuffer and held.length == self.length:
+            held.append(piece)
+            return Str(rt, held, held.length)
+        return rt.text(self.text + piece)
 
     def __radd__(self, other: object) -> object:
         if type(other) is float:
-            return Str(self.rt, format_number(other) + self.text)
+            return self.rt.text(format_number(other) + self.text)
         return compute("+", other, self)
 
     def __lt__(self, other: object) -> object:
@@ -192,13 +218,13 @@ class Str(Value):
 
 
 class Obj(Value):
-    """An object: fields live in the instance dictionary, under names with the prefix `T_`."""
+    """An object: fields live in the instance dictionary, under names with the prefix `T_`.
 
-    __slots__ = ("__dict__", "rt")
+    It holds nothing else, not even its runtime: CPython keeps the fields of such an object, up to some
+    number, in the object itself.
+    """
+
     kind = "object"
-
-    def __init__(self, rt: Runtime) -> None:
-        self.rt = rt
 
     def __neg__(self) -> object:
         if overload_of(self, "-") is None:
@@ -225,10 +251,22 @@ def type_name(value: object) -> str:
 
 
 def runtime_of(*values: object) -> Runtime | None:
+    """The runtime that values belong to: one tells it, or the code that runs."""
     for value in values:
         rt = getattr(value, "rt", None)
         if rt is not None:
             return rt  # type: ignore[no-any-return]
+    return _running_runtime() if Obj in map(type, values) else None
+
+
+def _running_runtime() -> Runtime | None:
+    """The runtime whose method `take_step` the innermost translated code knows as `T_`."""
+    frame: FrameType | None = sys._getframe(2)
+    while frame is not None:
+        step = frame.f_globals.get("T_")
+        if type(step) is MethodType:
+            return step.__self__  # type: ignore[return-value]
+        frame = frame.f_back
     return None
 
 

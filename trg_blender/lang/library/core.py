@@ -38,8 +38,8 @@ def _vec3(rt: Runtime, x: float, y: float | None, z: float | None) -> object:
 
 
 @HOST.function("object", "", "A new object without fields.", "object")
-def _object(rt: Runtime) -> object:
-    return rt.new_object()
+def _object(_rt: Runtime) -> object:
+    return Obj()
 
 
 @HOST.function("copy", "value: any", "A copy of a list or an object, one level deep; else the value.", "any")
@@ -48,7 +48,7 @@ def _copy(rt: Runtime, value: object) -> object:
         return List(rt, value.items.copy())
     if type(value) is not Obj:
         return value
-    made = rt.new_object()
+    made = Obj()
     made.__dict__.update(value.__dict__)
     rt.work_on_text(64 * len(value.__dict__))
     return made
