@@ -18,7 +18,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from .invoke import function_invoker, method_invoker
+from .invoke import function_invoker, method_invoker, named_for_faults
 from .values import Str, TrgError, Value, type_name
 from .vector import Vec3
 
@@ -180,9 +180,14 @@ class HostTable:
         self.constants[name] = HostConstant(name, value, doc)
 
     def method(
-        self, owner: type[Value], name: str, signature: str, doc: str, result: str = ""
-    ) -> Callable[[Callable[..., object]], Callable[..., object]]:
-        """Declare the decorated `run(rt, object, *arguments)` as method `name` of class `owner`."""
+        self, owner: type[Value], name: str, signature: str, doc: str, result: str = "",
+        direct: Callable[..., object] | None = None,
+    ) -> Callable[[Callable[..., object]], Callable[..., object]]:  # fmt: skip
+        """Declare the decorated `run(rt, object, *arguments)` as method `name` of class `owner`.
+
+        `direct(object, depth, arguments...)` is what programs call as it stands: it checks the arguments by
+        itself, their number excepted.
+        """
 
         def declare(run: Callable[..., object]) -> Callable[..., object]:
             row = Builtin(
@@ -191,7 +196,11 @@ class HostTable:
             )  # fmt: skip
             self.methods[owner.kind, name] = row
 
-            setattr(owner, "T_" + name, method_invoker(row, make_checker(row)))
+            if direct is None:
+                invoke = method_invoker(row, make_checker(row))
+            else:
+                invoke = named_for_faults(row, direct)
+            setattr(owner, "T_" + name, invoke)
             return run
 
         return declare
@@ -205,6 +214,11 @@ class HostTable:
     def placed_names(self) -> frozenset[str]:
         """The functions that number what they make by the place of the call."""
         return frozenset(row.name for row in self.functions.values() if row.placed)
+
+    def row(self, name: str) -> Builtin | None:
+        """The function or method of a full name such as `list.append`."""
+        owner, _, method = name.rpartition(".")
+        return self.methods.get((owner, method)) if owner else self.functions.get(name)
 
     def method_names(self, kind: str) -> list[str]:
         return [name for owner, name in self.methods if owner == kind]
@@ -259,7 +273,7 @@ def make_checker(row: Builtin) -> Callable[[tuple[object, ...]], Iterable[object
     def check(arguments: tuple[object, ...]) -> Iterable[object]:
         given = len(arguments)
         if given < least or (given > most and rest is None):
-            raise _wrong_count(row, most, given)
+            raise wrong_count(row, given)
         for parameter, value in zip(parameters, arguments, strict=False):
             if parameter.rest or not _passes(parameter, value):
                 return _check_all(row, arguments)
@@ -288,7 +302,9 @@ def _passes(parameter: HostParameter, value: object) -> bool:
     return kind is not Str and getattr(kind, "kind", "undef") in parameter.types
 
 
-def _wrong_count(row: Builtin, most: int, given: int) -> TrgError:
+def wrong_count(row: Builtin, given: int) -> TrgError:
+    """The error of calling `row` with so many arguments."""
+    most = len(row.parameters) - (row.rest is not None)
     wanted = str(most) if row.required == most else f"{row.required} to {most}"
     if row.rest is not None:
         wanted = f"at least {row.required}"

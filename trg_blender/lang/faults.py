@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from types import FunctionType, TracebackType
 
-from .bind import HOST
+from .bind import HOST, wrong_count
 from .diagnostics import Diagnostic, Notice, build_diagnostic, closest
 from .limits import MAX_CALL_DEPTH
 from .runtime import Runtime, Site
@@ -22,6 +22,7 @@ _MISSING = re.compile(r"f_(\d+)\(\) missing \d+ required positional arguments?: 
 _NO_ELEMENTS = re.compile(r"'(\w+)' object (?:is not subscriptable|does not support item assignment)")
 _TUPLE_INDEX = "tuple indices must be"
 _TOO_MANY = re.compile(r"f_(\d+)\(\) takes .* but (\d+) (?:was|were) given")
+_WRONG_COUNT = re.compile(r"T_(\S+)\(\) (?:missing (\d+) required|takes .* but (\d+) (?:was|were) given)")
 _KINDS = {
     "float": "num",
     "function": "function",
@@ -161,6 +162,8 @@ class FaultReader:
             return TrgError("E415") if kind == "generator" else TrgError("E440", kind=kind)
         if text.startswith(_TUPLE_INDEX):
             return TrgError("E440", kind="vec3")
+        if match := _WRONG_COUNT.match(text):
+            return _wrong_count_of_builtin(match[1], match[2], match[3])
         if match := _MISSING.search(text):
             info = self.rt.program.functions[int(match[1])]
             return TrgError("E432", name=info.name, parameter=match[2].removeprefix("l_"))
@@ -178,6 +181,16 @@ class FaultReader:
 
 def _name_of(site: Site) -> str:
     return site.names[0] if site.names and site.names[0] else "it"
+
+
+def _wrong_count_of_builtin(name: str, missing: str | None, given: str | None) -> TrgError:
+    """A built-in without defaults got too few or too many arguments; methods have two hidden ones."""
+    row = HOST.row(name)
+    if row is None:
+        return TrgError("E900", kind="TypeError")
+    if missing is not None:
+        return wrong_count(row, len(row.parameters) - int(missing))
+    return wrong_count(row, int(given or 0) - (0 if row.owner is None else 2))
 
 
 def field_error(holder: object, name: str, site: Site) -> TrgError:

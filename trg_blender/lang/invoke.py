@@ -2,7 +2,8 @@
 
 The compiled function tests arguments that are right beyond doubt in one expression and runs the
 built-in; everything else goes the long way, `bind.make_checker`, which finds the words for what is
-wrong. Rows that take strings, functions or any number of arguments have the long way only.
+wrong. How many arguments a row without defaults gets, Python checks; `faults` puts that into words.
+Rows that take strings, functions or any number of arguments have the long way only.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from functools import cache
 from types import GeneratorType
 from typing import TYPE_CHECKING
 
-from .values import Undef, Value
+from .values import FIELD, Undef, Value
 from .vector import Vec3
 
 if TYPE_CHECKING:
@@ -24,18 +25,18 @@ LongWay = Callable[[tuple[object, ...]], Iterable[object]]
 
 _FUNCTION = """
 def make(head, run, slow):
-    def invoke({parameters}*more):
-        if not more and {test}:
+    def invoke({parameters}):
+        if {test}:
             return run(head, {arguments})
-        return slow(({arguments}), more)
+        return slow(({arguments}), {more})
     return invoke
 """
 _METHOD = """
 def make(run, slow):
-    def invoke(self, _depth, {parameters}*more):
-        if not more and {test}:
+    def invoke(self, _depth, {parameters}):
+        if {test}:
             return run(self.rt, self, {arguments})
-        return slow(self, ({arguments}), more)
+        return slow(self, ({arguments}), {more})
     return invoke
 """
 _LONG_WAY_TYPES = frozenset(("str", "function"))
@@ -73,7 +74,7 @@ def function_invoker(row: Builtin, head: object, long_way: LongWay) -> Invoker:
     def slow(arguments: tuple[object, ...], more: tuple[object, ...]) -> object:
         return run(head, *long_way(_given(arguments, more, defaults)))
 
-    return make(head, run, slow)
+    return named_for_faults(row, make(head, run, slow))
 
 
 def method_invoker(row: Builtin, long_way: LongWay) -> Invoker:
@@ -91,7 +92,13 @@ def method_invoker(row: Builtin, long_way: LongWay) -> Invoker:
     def slow(self: Value, arguments: tuple[object, ...], more: tuple[object, ...]) -> object:
         return run(self.rt, self, *long_way(_given(arguments, more, defaults)))  # type: ignore[attr-defined]
 
-    return make(run, slow)
+    return named_for_faults(row, make(run, slow))
+
+
+def named_for_faults(row: Builtin, invoke: Invoker) -> Invoker:
+    """`invoke`, under a name by which `faults` knows `row` when Python complains of the arguments' number."""
+    invoke.__qualname__ = f"{FIELD}{row.name}"
+    return invoke
 
 
 def _defaults(row: Builtin) -> tuple[object, ...]:
@@ -117,20 +124,22 @@ def _given(
 def _compile(row: Builtin) -> Callable[..., Invoker] | None:
     """The maker of `row`'s invoker; None for a row that has only the long way."""
     text = _Text()
+    fixed = all(parameter.required for parameter in row.parameters)
     for index, parameter in enumerate(row.parameters):
         test = _test(parameter, f"a{index}", text.scope)
         if test is None:
             return None
         default = f"D{index}"
         text.scope[default] = _MISSING if parameter.required else parameter.default
-        text.parameters.append(f"a{index}={default}")
+        text.parameters.append(f"a{index}" if fixed else f"a{index}={default}")
         text.tests.append(f"({test})" if parameter.required else f"(a{index} is {default} or {test})")
     count = len(row.parameters)
     pattern = _FUNCTION if row.owner is None else _METHOD
     source = pattern.format(
-        parameters="".join(f"{p}, " for p in text.parameters),
+        parameters=", ".join(text.parameters if fixed else [*text.parameters, "*more"]),
         arguments="".join(f"a{n}, " for n in range(count)),
-        test=" and ".join(text.tests) or "True",
+        test=" and ".join(text.tests if fixed else ["not more", *text.tests]) or "True",
+        more="()" if fixed else "more",
     )
     scope: dict[str, object] = {"__builtins__": {}, "type": type, "float": float, **text.scope}
     scope.update(Vec3=Vec3, Undef=Undef, G=GeneratorType, MISSING=_MISSING)

@@ -23,7 +23,7 @@ class Limits:
     max_string: int = 65_536
     """Characters of one string."""
     max_text_bytes: int = 32 * 1024 * 1024
-    """Bytes of all live strings."""
+    """Bytes of all live strings longer than 64 characters; shorter ones count as blocks."""
     max_blocks: int = 1_500_000
     """Python memory blocks: values, objects, fields."""
     max_bytes: int = 384 * 1024 * 1024

@@ -73,6 +73,8 @@ class Runtime:
         self.undef = Undef(self)
         self.live_text = 0
         self.live_elements = 0
+        self.counts_in_advance = True
+        """Whether lists may count elements that they will get, see lists.List.reserve."""
         self.frame = 0
         self.modes = RenderModes()
         self._made_at: dict[tuple[Site | None, str], Place] = {}
@@ -153,7 +155,7 @@ class Runtime:
         self._seconds_start = time.thread_time()
 
     def hold_text(self, length: int, size: int) -> None:
-        """Count `size` more bytes for a string of `length`; raises TrgError above the limit for one or all."""
+        """Count `size` more bytes for a string of `length`; raises TrgError above a limit."""
         limits = self.limits
         if length > limits.max_string:
             raise TrgError("E605", "raise_other", option="max_string", limit=limits.max_string)

@@ -13,11 +13,9 @@ def _list(rt: Runtime, *values: object) -> object:
     return List(rt, list(values))
 
 
-@HOST.method(List, "append", "value: anything", "Add an element at the end.")
-def _append(rt: Runtime, target: List, value: object) -> object:
-    count_elements(rt, 1)
-    target.items.append(value)
-    return target
+@HOST.method(List, "append", "value: anything", "Add an element at the end.", direct=List.append)
+def _append(_rt: Runtime, target: List, value: object) -> object:
+    return target.append(None, value)
 
 
 @HOST.method(
@@ -27,6 +25,7 @@ def _insert(rt: Runtime, target: List, index: float, value: object) -> object:
     items = target.items
     place = len(items) if index == len(items) else _place(items, index)
     count_elements(rt, 1)
+    target.counted += 1
     rt.work_on_text(POINTER * (len(items) - place))
     items.insert(place, value)
     return target
@@ -37,15 +36,15 @@ def _remove(rt: Runtime, target: List, index: float) -> object:
     items = target.items
     place = _place(items, index)
     rt.work_on_text(POINTER * (len(items) - place))
-    rt.live_elements -= 1
+    target.uncount(1)
     return items.pop(place)
 
 
 @HOST.method(List, "pop", "", "Take the last element out and return it.", "any")
-def _pop(rt: Runtime, target: List) -> object:
+def _pop(_rt: Runtime, target: List) -> object:
     if not target.items:
         raise TrgError("E445")
-    rt.live_elements -= 1
+    target.uncount(1)
     return target.items.pop()
 
 
