@@ -13,33 +13,51 @@ int32_t every_other_bit(uint32_t code) {
     return value;
 }
 
+struct MeanOf {
+    int replicates, channels;
+    bool each_alike;  // mean of the replicates' means; otherwise of all samples
+};
+
+void mean_of(const PixelSums& at, const MeanOf& of, double* mean) {
+    double n = 0.0;
+    for (int r = 0; r < of.replicates; ++r) n += at.counts[r];
+    for (int c = 0; c < of.channels; ++c) {
+        double sum = 0.0;
+        for (int r = 0; r < of.replicates; ++r)
+            sum += of.each_alike ? at.sums[r][c] / at.counts[r] : at.sums[r][c];
+        mean[c] = sum / (of.each_alike ? of.replicates : n);
+    }
+}
+
 }  // namespace
 
-Film::Film(const PixelRect& rect, const FilmPasses& passes, int64_t samples, int32_t tile_size)
-    : rect_(rect),
-      passes_(passes),
-      replicates_(static_cast<int>(std::min<int64_t>(samples, kReplicates))),
-      tile_size_(tile_size) {
+Film::Film(const FilmLayout& layout)
+    : layout_(layout),
+      replicates_(static_cast<int>(std::min<int64_t>(layout.samples, kReplicates))),
+      channels_(layout.passes.alpha ? 4 : 3) {
     const size_t pixels = static_cast<size_t>(width()) * height();
-    sums_.resize(pixels * replicates_ * 3);
-    if (passes.normal) normals_.resize(pixels * 3);
-    if (passes.alpha) hits_.resize(pixels);
-    if (passes.depth) depth_.assign(pixels, 1e10f);
+    sums_.resize(pixels * replicates_ * channels_);
+    if (layout.passes.normal) normals_.resize(pixels * 3);
+    if (layout.passes.depth) depth_.assign(pixels, 1e10f);
     make_tiles();
 }
 
+int32_t Film::tile_columns() const {
+    return (width() + layout_.tile_size - 1) / layout_.tile_size;
+}
+
 void Film::make_tiles() {
-    const int32_t columns = (width() + tile_size_ - 1) / tile_size_;
-    const int32_t rows = (height() + tile_size_ - 1) / tile_size_;
+    const int32_t columns = tile_columns(), side = layout_.tile_size;
+    const int32_t rows = (height() + side - 1) / side;
     tile_count_ = columns * rows;
     tiles_ = std::make_unique<Tile[]>(tile_count_);
     for (int index = 0; index < tile_count_; ++index) {
-        const int32_t x = rect_.x_min + index % columns * tile_size_;
-        const int32_t y = rect_.y_min + index / columns * tile_size_;
+        const int32_t x = layout_.rect.x_min + index % columns * side;
+        const int32_t y = layout_.rect.y_min + index / columns * side;
         // Morton order keeps neighbours together, which rays traced as packets like.
-        for (uint32_t code = 0; code < static_cast<uint32_t>(tile_size_ * tile_size_); ++code) {
+        for (uint32_t code = 0; code < static_cast<uint32_t>(side * side); ++code) {
             const Pixel pixel{x + every_other_bit(code), y + every_other_bit(code >> 1)};
-            if (pixel.x < rect_.x_max && pixel.y < rect_.y_max)
+            if (pixel.x < layout_.rect.x_max && pixel.y < layout_.rect.y_max)
                 tiles_[index].pixels.push_back(pixel);
         }
     }
@@ -56,12 +74,12 @@ void Film::add(const Chunk& chunk, const PathResult* results) {
         const int64_t at = index_of(chunk.pixels[i / chunk.samples]);
         const int replicate =
             static_cast<int>((chunk.first_sample + i % chunk.samples) % kReplicates);
-        double* sum = &sums_[(at * replicates_ + replicate) * 3];
+        double* sum = &sums_[(at * replicates_ + replicate) * channels_];
         sum[0] += result.radiance.x;
         sum[1] += result.radiance.y;
         sum[2] += result.radiance.z;
-        if (passes_.alpha) hits_[at] += result.hit;
-        if (!passes_.normal) continue;
+        if (layout_.passes.alpha) sum[3] += result.hit;
+        if (!layout_.passes.normal) continue;
         normals_[3 * at] += result.normal.x;
         normals_[3 * at + 1] += result.normal.y;
         normals_[3 * at + 2] += result.normal.z;
@@ -72,18 +90,51 @@ void Film::set_depth(const Pixel* pixels, int32_t count, const float* depth) {
     for (int32_t i = 0; i < count; ++i) depth_[index_of(pixels[i])] = depth[i];
 }
 
+PixelSums Film::counted(const Tile& tile, int32_t slot) const {
+    PixelSums found;
+    for (int r = 0; r < replicates_; ++r) {
+        const TileHalf& half = tile.halves[r / kHalfReplicates];
+        found.sums[r] = live_sums(tile.pixels[slot], r);
+        found.counts[r] = static_cast<double>(replicate_count(tile.samples_done, r));
+        if (half.live) continue;
+        const HalfSnapshot& kept = half.snapshots.front();
+        found.sums[r] =
+            &kept.sums[(slot * kHalfReplicates + r % kHalfReplicates) * static_cast<size_t>(channels_)];
+        found.counts[r] = kept.samples;
+    }
+    return found;
+}
+
+HalfSnapshot Film::snapshot(const Tile& tile, int half) const {
+    HalfSnapshot kept{tile.samples_done / kReplicates, {}};
+    const size_t width = static_cast<size_t>(kHalfReplicates) * channels_;
+    kept.sums.reserve(tile.pixels.size() * width);
+    for (const Pixel& pixel : tile.pixels) {
+        const double* first = live_sums(pixel, half * kHalfReplicates);
+        kept.sums.insert(kept.sums.end(), first, first + width);
+    }
+    return kept;
+}
+
+int Film::complete_replicates() const {
+    uint32_t least = ~0u;
+    for (int index = 0; index < tile_count_; ++index)
+        least = std::min(least, tiles_[index].samples_published.load(std::memory_order_acquire));
+    return static_cast<int>(std::min<uint32_t>(least, replicates_));
+}
+
 void Film::read_combined(float* out) const {
     for (int index = 0; index < tile_count_; ++index) {
+        const Tile& tile = tiles_[index];
         const std::lock_guard<std::mutex> hold(tiles_[index].lock);
-        const uint32_t done = tiles_[index].samples_done;
-        const double scale = done ? 1.0 / done : 0.0;
-        for (const Pixel& pixel : tiles_[index].pixels) {
-            const int64_t at = index_of(pixel);
-            double total[3] = {0.0, 0.0, 0.0};
-            for (int r = 0; r < replicates_; ++r)
-                for (int c = 0; c < 3; ++c) total[c] += sums(pixel, r)[c];
-            for (int c = 0; c < 3; ++c) out[4 * at + c] = static_cast<float>(total[c] * scale);
-            out[4 * at + 3] = passes_.alpha ? static_cast<float>(hits_[at] * scale) : 1.0f;
+        const int used = static_cast<int>(std::min<uint32_t>(tile.samples_done, replicates_));
+        for (size_t slot = 0; slot < tile.pixels.size(); ++slot) {
+            const int64_t at = index_of(tile.pixels[slot]);
+            double mean[4] = {0.0, 0.0, 0.0, 0.0};
+            if (used > 0)
+                mean_of(counted(tile, static_cast<int32_t>(slot)), {used, channels_, halved()}, mean);
+            for (int c = 0; c < 3; ++c) out[4 * at + c] = static_cast<float>(mean[c]);
+            out[4 * at + 3] = layout_.passes.alpha ? static_cast<float>(mean[3]) : 1.0f;
         }
     }
 }
@@ -116,14 +167,16 @@ void Film::read_replicates(double* out, int64_t* counts) const {
     const int64_t plane = static_cast<int64_t>(width()) * height() * 3;
     std::fill(out, out + plane * kReplicates, 0.0);
     for (int index = 0; index < tile_count_; ++index) {
+        const Tile& tile = tiles_[index];
         const std::lock_guard<std::mutex> hold(tiles_[index].lock);
-        for (int r = 0; r < replicates_; ++r) {
-            const int64_t here = replicate_count(tiles_[index].samples_done, r);
-            if (counts[r] == 0) continue;
-            const double scale = static_cast<double>(counts[r]) / static_cast<double>(here);
-            for (const Pixel& pixel : tiles_[index].pixels)
+        for (size_t slot = 0; slot < tile.pixels.size(); ++slot) {
+            const PixelSums at = counted(tile, static_cast<int32_t>(slot));
+            for (int r = 0; r < replicates_; ++r) {
+                if (counts[r] == 0) continue;
+                const double scale = static_cast<double>(counts[r]) / at.counts[r];
                 for (int c = 0; c < 3; ++c)
-                    out[r * plane + 3 * index_of(pixel) + c] = sums(pixel, r)[c] * scale;
+                    out[r * plane + 3 * index_of(tile.pixels[slot]) + c] = at.sums[r][c] * scale;
+            }
         }
     }
 }

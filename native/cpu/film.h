@@ -22,11 +22,28 @@ struct FilmPasses {
     bool alpha = false;
 };
 
-/// Pixels of one tile. `samples_done` only grows; `lock` guards it and the tile's part of the sums.
+/// Replicates of one half, in a film whose halves decide for each other (cpu/allotment.h).
+constexpr int kHalfReplicates = kReplicates / 2;
+
+/// Sums of one half of a tile when each of its replicates had `samples`.
+struct HalfSnapshot {
+    uint32_t samples;
+    std::vector<double> sums;  // pixel, replicate of the half, channel
+};
+
+/// What of a half counts: everything that was rendered, or the first of its snapshots.
+struct TileHalf {
+    bool live = true;
+    std::vector<HalfSnapshot> snapshots;
+};
+
+/// Pixels of one tile. `samples_done` only grows; `lock` guards it, the halves and the tile's part
+/// of the sums.
 struct Tile {
     std::vector<Pixel> pixels;
     uint32_t samples_done = 0;
     std::atomic<uint32_t> samples_published{0};  // samples_done, to be read without the lock
+    TileHalf halves[2];
     std::mutex lock;
 };
 
@@ -36,32 +53,58 @@ inline int64_t replicate_count(uint32_t samples_done, int replicate) {
            (static_cast<uint32_t>(replicate) < samples_done % kReplicates ? 1 : 0);
 }
 
+/// What counts of one pixel: sums and samples of each replicate.
+struct PixelSums {
+    const double* sums[kReplicates];
+    double counts[kReplicates];
+};
+
+/// How a film is laid out.
+struct FilmLayout {
+    PixelRect rect;
+    FilmPasses passes;
+    int64_t samples;    // bounds the replicates that need room
+    int32_t tile_size;  // pixels along a side
+    bool halved;        // two halves of replicates may count unequally many samples
+};
+
 class Film {
   public:
-    /// `samples` bounds the replicates that need room.
-    Film(const PixelRect& rect, const FilmPasses& passes, int64_t samples, int32_t tile_size);
+    explicit Film(const FilmLayout& layout);
 
-    int32_t width() const { return rect_.x_max - rect_.x_min; }
-    int32_t height() const { return rect_.y_max - rect_.y_min; }
+    int32_t width() const { return layout_.rect.x_max - layout_.rect.x_min; }
+    int32_t height() const { return layout_.rect.y_max - layout_.rect.y_min; }
+    int32_t tile_columns() const;
     int tile_count() const { return tile_count_; }
     /// Most pixels that a tile has.
-    int32_t tile_pixels() const { return tile_size_ * tile_size_; }
+    int32_t tile_pixels() const { return layout_.tile_size * layout_.tile_size; }
     Tile& tile(int index) const { return tiles_[index]; }
     int replicates() const { return replicates_; }
+    bool halved() const { return layout_.halved; }
     int64_t rejected() const { return rejected_.load(std::memory_order_relaxed); }
-    const FilmPasses& passes() const { return passes_; }
+    const FilmPasses& passes() const { return layout_.passes; }
+    /// Replicates that have a sample in every tile.
+    int complete_replicates() const;
 
     /// Adds finished paths of `tile`, which the caller has locked; what is not finite is counted
     /// and dropped.
     void add(const Chunk& chunk, const PathResult* results);
     void set_depth(const Pixel* pixels, int32_t count, const float* depth);
 
-    /// The sums of `replicate` at `pixel`: three numbers.
-    const double* sums(Pixel pixel, int replicate) const {
-        return &sums_[(index_of(pixel) * replicates_ + replicate) * 3];
+    /// What counts at pixel `slot` of `tile`, whose lock the caller holds: the first
+    /// min(samples_done, 8) replicates. Three channels at each pointer.
+    PixelSums counted(const Tile& tile, int32_t slot) const;
+    /// What was rendered of a replicate, whether it counts or not; those after it follow.
+    const double* live_sums(Pixel pixel, int replicate) const {
+        return &sums_[(index_of(pixel) * replicates_ + replicate) * channels_];
     }
+    int channels() const { return channels_; }
+    /// Copies what a half has now; the caller holds the tile's lock.
+    HalfSnapshot snapshot(const Tile& tile, int half) const;
+
     int64_t index_of(Pixel pixel) const {
-        return static_cast<int64_t>(pixel.y - rect_.y_min) * width() + (pixel.x - rect_.x_min);
+        return static_cast<int64_t>(pixel.y - layout_.rect.y_min) * width() +
+               (pixel.x - layout_.rect.x_min);
     }
 
     /// Pictures of what is there now; 0 where a tile has no sample yet. Row 0 is the bottom row.
@@ -75,14 +118,12 @@ class Film {
   private:
     void make_tiles();
 
-    PixelRect rect_;
-    FilmPasses passes_;
+    FilmLayout layout_;
     int replicates_;
-    int32_t tile_size_;
+    int channels_;  // three of light, then the camera rays that hit when alpha is asked for
     int tile_count_ = 0;
     std::unique_ptr<Tile[]> tiles_;
     std::vector<double> sums_, normals_;
-    std::vector<int32_t> hits_;
     std::vector<float> depth_;
     std::atomic<int64_t> rejected_{0};
 };

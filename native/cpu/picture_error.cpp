@@ -12,49 +12,81 @@ struct Totals {
     double delete_one[kReplicates] = {};
 };
 
-/// Adds one value, whose replicate `sums` lie 3 apart.
-void add_value(const double* sums, const double* counts, int replicates, Totals* totals) {
+/// Adds one channel of a pixel whose replicates count `n` samples together.
+void add_value(const PixelSums& at, int channel, int replicates, Totals* totals) {
     double n = 0.0, sum = 0.0;
     for (int r = 0; r < replicates; ++r) {
-        n += counts[r];
-        sum += sums[3 * r];
+        n += at.counts[r];
+        sum += at.sums[r][channel];
     }
     const double mean = sum / n;
     double spread = 0.0, off[kReplicates];
     for (int r = 0; r < replicates; ++r) {
-        off[r] = sums[3 * r] / counts[r] - mean;
-        spread += counts[r] * off[r] * off[r];
+        off[r] = at.sums[r][channel] / at.counts[r] - mean;
+        spread += at.counts[r] * off[r] * off[r];
     }
     const double variance = spread / ((replicates - 1) * n);
     totals->variance += variance;
     totals->relative += variance / (mean * mean + 0.01);
     if (replicates < 3) return;
     for (int r = 0; r < replicates; ++r) {
-        const double left = n - counts[r], moved = counts[r] * off[r];
+        const double left = n - at.counts[r], moved = at.counts[r] * off[r];
         const double without = spread - moved * off[r] - moved * moved / left;
         totals->delete_one[r] += std::max(without, 0.0) / ((replicates - 2) * left);
+    }
+}
+
+/// The same for two halves whose replicates count unequally many samples: the picture is the mean
+/// of all replicate means, its variance that of the halves' means over 4.
+void add_halved_value(const PixelSums& at, int channel, Totals* totals) {
+    constexpr int k = kHalfReplicates;
+    double means[kReplicates], mean = 0.0, spread[2];
+    for (int r = 0; r < kReplicates; ++r) {
+        means[r] = at.sums[r][channel] / at.counts[r];
+        mean += means[r] / kReplicates;
+    }
+    double off[kReplicates];
+    for (int half = 0; half < 2; ++half) {
+        double centre = 0.0;
+        for (int r = half * k; r < (half + 1) * k; ++r) centre += means[r] / k;
+        spread[half] = 0.0;
+        for (int r = half * k; r < (half + 1) * k; ++r) {
+            off[r] = means[r] - centre;
+            spread[half] += off[r] * off[r];
+        }
+    }
+    constexpr double scale = 1.0 / (2.0 * kReplicates);
+    const double variance = (spread[0] + spread[1]) / (k - 1) * scale;
+    totals->variance += variance;
+    totals->relative += variance / (mean * mean + 0.01);
+    for (int r = 0; r < kReplicates; ++r) {
+        const double left = std::max(spread[r / k] - off[r] * off[r] * k / (k - 1), 0.0) / (k - 2);
+        totals->delete_one[r] += (left + spread[1 - r / k] / (k - 1)) * scale;
     }
 }
 
 }  // namespace
 
 PictureError measure_error(const Film& film) {
-    uint32_t least = ~0u;
-    for (int index = 0; index < film.tile_count(); ++index)
-        least = std::min(least, film.tile(index).samples_published.load(std::memory_order_acquire));
     PictureError error;
-    error.replicates = static_cast<int>(std::min<uint32_t>(least, film.replicates()));
-    if (error.replicates < 2) return error;
+    error.replicates = film.complete_replicates();
+    error.halves = film.halved();
+    if (error.replicates < (film.halved() ? kReplicates : 2)) {
+        error.replicates = std::min(error.replicates, 1);
+        return error;
+    }
     Totals totals;
     for (int index = 0; index < film.tile_count(); ++index) {
         Tile& tile = film.tile(index);
         const std::lock_guard<std::mutex> hold(tile.lock);
-        double counts[kReplicates];
-        for (int r = 0; r < error.replicates; ++r)
-            counts[r] = static_cast<double>(replicate_count(tile.samples_done, r));
-        for (const Pixel& pixel : tile.pixels)
+        for (size_t slot = 0; slot < tile.pixels.size(); ++slot) {
+            const PixelSums at = film.counted(tile, static_cast<int32_t>(slot));
             for (int c = 0; c < 3; ++c)
-                add_value(film.sums(pixel, 0) + c, counts, error.replicates, &totals);
+                if (film.halved())
+                    add_halved_value(at, c, &totals);
+                else
+                    add_value(at, c, error.replicates, &totals);
+        }
     }
     const double values = 3.0 * film.width() * film.height();
     error.mse = totals.variance / values;

@@ -9,9 +9,11 @@ namespace trg {
 
 /// `mse` is the mean over pixels and channels of the unbiased variance of the picture; `relmse` the
 /// same over picture^2 + 0.01; `delete_one_mse` the mse without each replicate (jackknife).
+/// With `halves`, replicates 0 to 3 and 4 to 7 are groups of their own and all count alike.
 /// Below 2 replicates only `replicates` holds; below 3 `delete_one_mse` is empty.
 struct PictureError {
     int replicates = 0;
+    bool halves = false;
     double mse = 0.0, relmse = 0.0;
     std::vector<double> delete_one_mse;
 };

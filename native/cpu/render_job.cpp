@@ -34,18 +34,24 @@ int32_t choose_tile_size(const PixelRect& rect, int threads) {
     return size;
 }
 
+uint32_t most_per_replicate(int64_t samples) {
+    return static_cast<uint32_t>(std::max<int64_t>(samples / kReplicates, 1));
+}
+
 }  // namespace
 
 RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
     : request_(request),
       frozen_(scene),
-      film_(request.rect, request.passes, request.samples,
-            choose_tile_size(request.rect, resolve_threads(request.threads))),
+      film_({request.rect, request.passes,
+             request.is_allotted() ? std::max<int64_t>(request.samples, kReplicates) : request.samples,
+             choose_tile_size(request.rect, resolve_threads(request.threads)), request.is_allotted()}),
       kernels_(choose_kernel_set(frozen_.features(), scene.world.isa)),
       view_{frozen_.view(), request.width, request.height, request.seed, request.max_bounces},
       work_count_(count_passes(request.samples) * film_.tile_count()),
       start_(Clock::now()),
-      end_(start_) {
+      end_(start_),
+      allotment_(film_, {request.rmse, request.adaptive, most_per_replicate(request.samples)}) {
     const CameraView& camera = view_.scene.camera;
     view_.scene.pixel_spread =
         std::fabs(camera.right - camera.left) / static_cast<float>(request.width);
@@ -81,15 +87,98 @@ RenderJob::Work RenderJob::work_at(int64_t index) const {
 }
 
 void RenderJob::run_thread(QueueStorage& storage) {
-    while (!cancelled_.load(std::memory_order_relaxed)) {
+    if (request_.is_allotted())
+        run_allotted(storage);
+    else
+        run_evenly(storage);
+    finish_thread();
+}
+
+void RenderJob::run_evenly(QueueStorage& storage) {
+    while (!should_stop()) {
         const int64_t index = next_work_.fetch_add(1, std::memory_order_relaxed);
         if (index >= work_count_) break;
         const Work work = work_at(index);
-        RayCounts counts{};
-        if (!wait_for_turn(work) || !render_work(work, storage, &counts)) break;
-        finish_work(counts);
+        if (!wait_for_turn(work) || !render_work(work, storage)) break;
     }
-    finish_thread();
+}
+
+/// True when the job is to end now, with what the film has.
+bool RenderJob::should_stop() {
+    if (cancelled_.load(std::memory_order_relaxed)) {
+        note_stop(StopReason::cancel);
+        return true;
+    }
+    if (!(request_.seconds > 0.0)) return false;
+    // The first pass is always made: a picture with holes is none.
+    const std::chrono::duration<double> spent = Clock::now() - start_;
+    const int64_t pixels = static_cast<int64_t>(film_.width()) * film_.height();
+    if (spent.count() < request_.seconds || pixel_samples_.load() < pixels) return false;
+    note_stop(StopReason::time);
+    return true;
+}
+
+/// The first reason counts.
+void RenderJob::note_stop(StopReason reason) {
+    StopReason none = StopReason::none;
+    stopped_by_.compare_exchange_strong(none, reason);
+}
+
+void RenderJob::run_allotted(QueueStorage& storage) {
+    TileTask task;
+    while (take_task(&task)) {
+        const bool whole = render_task(task, storage);
+        if (whole) end_task(task);
+        const std::lock_guard<std::mutex> hold(plan_lock_);
+        --busy_;
+        exhausted_ = exhausted_ || !whole;
+        planned_.notify_all();
+    }
+}
+
+/// The next task; whoever finds none left and nobody at work makes the next round. False: the end.
+bool RenderJob::take_task(TileTask* task) {
+    std::unique_lock<std::mutex> hold(plan_lock_);
+    while (!exhausted_ && !should_stop()) {
+        if (next_task_ < tasks_.size()) {
+            *task = tasks_[next_task_++];
+            ++busy_;
+            return true;
+        }
+        if (busy_ > 0) {
+            planned_.wait_for(hold, std::chrono::milliseconds(20));
+            continue;
+        }
+        tasks_ = allotment_.plan();
+        next_task_ = 0;
+        exhausted_ = tasks_.empty();
+        if (exhausted_ && allotment_.error_met()) note_stop(StopReason::error);
+        planned_.notify_all();
+    }
+    return false;
+}
+
+/// A half that will not count what comes is kept as it is.
+void RenderJob::keep_snapshots(const TileTask& task) {
+    Tile& tile = film_.tile(task.tile);
+    const std::lock_guard<std::mutex> hold(tile.lock);
+    for (int half = 0; half < 2; ++half) {
+        if (task.counts[half]) continue;
+        tile.halves[half].snapshots.push_back(film_.snapshot(tile, half));
+        tile.halves[half].live = false;
+    }
+}
+
+bool RenderJob::render_task(const TileTask& task, QueueStorage& storage) {
+    keep_snapshots(task);
+    const uint32_t end = task.target * kReplicates;
+    for (uint32_t first = film_.tile(task.tile).samples_done; first < end; first += kReplicates)
+        if (should_stop() || !render_work({task.tile, first, kReplicates}, storage)) return false;
+    return true;
+}
+
+void RenderJob::end_task(const TileTask& task) {
+    allotment_.record(task);
 }
 
 /// Another thread may still be at this tile's pass before: sums are made in one order only.
@@ -103,14 +192,18 @@ bool RenderJob::wait_for_turn(const Work& work) const {
 }
 
 /// Renders a tile's pass as one wavefront; the film takes all of it or, when cancelled, nothing.
-bool RenderJob::render_work(const Work& work, QueueStorage& storage, RayCounts* counts) {
+bool RenderJob::render_work(const Work& work, QueueStorage& storage) {
+    RayCounts counts{};
     Tile& tile = film_.tile(work.tile);
     PathQueues queues = storage.view();
     const int32_t pixel_count = static_cast<int32_t>(tile.pixels.size());
     const Chunk chunk{tile.pixels.data(), pixel_count, work.first_sample, work.samples};
     const bool with_depth = request_.passes.depth && work.first_sample == 0;
     if (with_depth) render_depth(view_, chunk.pixels, pixel_count, queues, storage.depth());
-    if (!kernels_.render_chunk(view_, chunk, queues, cancelled_, counts)) return false;
+    if (!kernels_.render_chunk(view_, chunk, queues, cancelled_, &counts)) {
+        note_stop(StopReason::cancel);
+        return false;
+    }
     {
         const std::lock_guard<std::mutex> hold(tile.lock);
         if (with_depth) film_.set_depth(chunk.pixels, pixel_count, storage.depth());
@@ -120,6 +213,7 @@ bool RenderJob::render_work(const Work& work, QueueStorage& storage, RayCounts* 
     }
     pixel_samples_.fetch_add(static_cast<int64_t>(pixel_count) * work.samples,
                              std::memory_order_relaxed);
+    finish_work(counts);
     return true;
 }
 
@@ -132,6 +226,7 @@ void RenderJob::finish_work(const RayCounts& counts) {
 void RenderJob::finish_thread() {
     const std::lock_guard<std::mutex> hold(lock_);
     if (--running_ > 0) return;
+    note_stop(StopReason::samples);
     end_ = Clock::now();
     ended_.notify_all();
 }
@@ -152,7 +247,7 @@ RenderProgress RenderJob::progress() const {
     const Clock::time_point until = running_ == 0 ? end_ : Clock::now();
     RenderProgress state{};
     state.done = running_ == 0;
-    state.cancelled = state.done && done < pixels * request_.samples;
+    state.stopped_by = state.done ? stopped_by_.load() : StopReason::none;
     state.samples = done / pixels;
     state.target = request_.samples;
     state.seconds = std::chrono::duration<double>(until - start_).count();

@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <thread>
 
+#include "cpu/allotment.h"
 #include "cpu/film.h"
 #include "cpu/queue_storage.h"
 #include "kernel/kernel_sets.h"
@@ -20,10 +21,19 @@ struct RenderRequest {
     int32_t max_bounces;
     int threads;  // 0: all cores
     FilmPasses passes;
+    double seconds;  // wall-clock time after which the job stops; 0: no limit
+    double rmse;     // error of the picture at which it stops; 0: no such stop
+    bool adaptive;   // more samples where there is more noise
+
+    /// Whether halves of the replicates decide how many samples count.
+    bool is_allotted() const { return rmse > 0.0 || adaptive; }
 };
 
+enum class StopReason : int { none, samples, time, error, cancel };
+
 struct RenderProgress {
-    bool done, cancelled;
+    bool done;
+    StopReason stopped_by;  // none while it runs
     int64_t samples;  // a pixel, rounded down over the picture
     int64_t target;
     double seconds;
@@ -56,8 +66,16 @@ class RenderJob {
 
     Work work_at(int64_t index) const;
     void run_thread(QueueStorage& storage);
-    bool render_work(const Work& work, QueueStorage& storage, RayCounts* counts);
+    void run_evenly(QueueStorage& storage);
+    void run_allotted(QueueStorage& storage);
+    bool take_task(TileTask* task);
+    bool render_task(const TileTask& task, QueueStorage& storage);
+    void keep_snapshots(const TileTask& task);
+    void end_task(const TileTask& task);
+    bool render_work(const Work& work, QueueStorage& storage);
     bool wait_for_turn(const Work& work) const;
+    bool should_stop();
+    void note_stop(StopReason reason);
     void finish_thread();
     void finish_work(const RayCounts& counts);
     RenderProgress progress() const;
@@ -72,11 +90,21 @@ class RenderJob {
     std::atomic<int64_t> pixel_samples_{0};
     std::atomic<int64_t> camera_rays_{0}, shadow_rays_{0}, bounce_rays_{0};
     std::atomic<bool> cancelled_{false};
+    std::atomic<StopReason> stopped_by_{StopReason::none};
     Clock::time_point start_;
     Clock::time_point end_;
     int running_ = 0;
     mutable std::mutex lock_;  // guards running_ and end_
     std::condition_variable ended_;
+
+    Allotment allotment_;  // from here on: for allotted jobs, guarded by plan_lock_
+    std::mutex plan_lock_;
+    std::condition_variable planned_;
+    std::vector<TileTask> tasks_;
+    size_t next_task_ = 0;
+    int busy_ = 0;
+    bool exhausted_ = false;
+
     std::vector<QueueStorage> storages_;
     std::vector<std::thread> threads_;
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "cpu/picture_error.h"
+#include "cpu/pixel_error.h"
 #include "py/buffer.h"
 #include "py/scene_object.h"
 
@@ -36,6 +37,21 @@ PyObject* as_bool(bool value) {
     return value ? Py_True : Py_False;
 }
 
+const char* name_of(StopReason reason) {
+    switch (reason) {
+        case StopReason::samples:
+            return "samples";
+        case StopReason::time:
+            return "time";
+        case StopReason::error:
+            return "error";
+        case StopReason::cancel:
+            return "cancel";
+        default:
+            return nullptr;
+    }
+}
+
 PyObject* poll_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         double timeout_s = 0.0;
@@ -49,8 +65,9 @@ PyObject* poll_method(PyObject* self, PyObject* args, PyObject* kwargs) {
             state = job_of(self).wait(timeout_s);
         }
         return checked(Py_BuildValue(
-            "{s:O, s:O, s:L, s:L, s:d, s:L, s:L, s:L, s:L, s:s}", "done", as_bool(state.done),
-            "cancelled", as_bool(state.cancelled), "samples", static_cast<long long>(state.samples),
+            "{s:O, s:O, s:z, s:L, s:L, s:d, s:L, s:L, s:L, s:L, s:s}", "done", as_bool(state.done),
+            "cancelled", as_bool(state.stopped_by == StopReason::cancel), "stopped_by",
+            name_of(state.stopped_by), "samples", static_cast<long long>(state.samples),
             "target", static_cast<long long>(state.target), "seconds", state.seconds, "rays_camera",
             static_cast<long long>(state.rays.camera), "rays_shadow",
             static_cast<long long>(state.rays.shadow), "rays_bounce",
@@ -132,9 +149,31 @@ PyObject* error_method(PyObject* self, PyObject*) {
         }
         PyRef mse = known ? checked(PyFloat_FromDouble(error.mse)) : none();
         PyRef relmse = known ? checked(PyFloat_FromDouble(error.relmse)) : none();
-        return checked(Py_BuildValue("{s:i, s:O, s:O, s:O}", "replicates", error.replicates, "mse",
+        return checked(Py_BuildValue("{s:i, s:i, s:O, s:O, s:O}", "replicates", error.replicates,
+                                     "groups", error.halves ? 2 : 1, "mse",
                                      mse.get(), "relmse", relmse.get(), "delete_one_mse",
                                      without.get()));
+    });
+}
+
+PyObject* pixel_error_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        PyObject *half_width, *flags;
+        const char* const names[] = {"half_width", "flags", nullptr};
+        parse_arguments(args, kwargs, "OO", names, &half_width, &flags);
+        const Film& film = job_of(self).film();
+        Buffer widths =
+            Buffer::of<float>(half_width, "half_width", {film.height(), film.width()}, Access::write);
+        Buffer bits = Buffer::of<uint8_t>(flags, "flags", {film.height(), film.width()}, Access::write);
+        Evidence evidence;
+        {
+            const WithoutGil unlocked;
+            evidence = measure_pixel_error(film, widths.mutable_data<float>(),
+                                           bits.mutable_data<uint8_t>());
+        }
+        return checked(Py_BuildValue("{s:d, s:d, s:d, s:d}", "lit", evidence.lit, "unseen",
+                                     evidence.unseen, "lonely", evidence.lonely, "lonely_error",
+                                     evidence.lonely_error));
     });
 }
 
@@ -148,7 +187,10 @@ PyMethodDef kJobMethods[] = {
     {"replicates", as_method(replicates_method), METH_VARARGS | METH_KEYWORDS,
      "replicates(sums, counts): fills float64 (8, h, w, 3) and int64 (8,)"},
     {"error", error_method, METH_NOARGS,
-     "error() -> dict: replicates, mse, relmse, delete_one_mse; None below 2 replicates"},
+     "error() -> dict: replicates, groups, mse, relmse, delete_one_mse; None below 2 replicates"},
+    {"pixel_error", as_method(pixel_error_method), METH_VARARGS | METH_KEYWORDS,
+     "pixel_error(half_width, flags) -> dict: fills float32 (h, w), the 95 % half width of each "
+     "pixel's luminance, and uint8 (h, w): 1 no replicate saw light, 2 one holds nearly all"},
     {nullptr, nullptr, 0, nullptr}};
 
 PyType_Slot kJobSlots[] = {

@@ -125,6 +125,10 @@ void check_request(const RenderRequest& request) {
         throw ArgumentError("samples: expected 1 to 2^30");
     if (request.max_bounces < 0 || request.max_bounces > 1 << 20)
         throw ArgumentError("max_bounces: expected 0 to 2^20");
+    if (!(request.seconds >= 0.0 && request.seconds <= 1e9))
+        throw ArgumentError("seconds: expected 0 (no limit) to 1e9");
+    if (!(request.rmse >= 0.0 && request.rmse <= 1e30))
+        throw ArgumentError("rmse: expected 0 (no such stop) or more");
     if (request.threads < 0 || request.threads > 4096)
         throw ArgumentError("threads: expected 0 to 4096");
 }
@@ -135,11 +139,14 @@ PyObject* start_render_method(PyObject* self, PyObject* args, PyObject* kwargs) 
         long long samples;
         unsigned long long seed = 0;
         PyObject *passes = nullptr, *border = nullptr;
+        int adaptive = 0;
         request.max_bounces = 12;
-        const char* const names[] = {"width",   "height", "samples", "seed", "max_bounces",
-                                     "threads", "passes", "border",  nullptr};
-        parse_arguments(args, kwargs, "iiL|KiiOO", names, &request.width, &request.height, &samples,
-                        &seed, &request.max_bounces, &request.threads, &passes, &border);
+        const char* const names[] = {"width",  "height", "samples", "seed", "max_bounces", "threads",
+                                     "passes", "border", "seconds", "rmse", "adaptive",    nullptr};
+        parse_arguments(args, kwargs, "iiL|KiiOOddp", names, &request.width, &request.height,
+                        &samples, &seed, &request.max_bounces, &request.threads, &passes, &border,
+                        &request.seconds, &request.rmse, &adaptive);
+        request.adaptive = adaptive != 0;
         request.samples = samples;
         request.seed = static_cast<uint32_t>(seed ^ (seed >> 32));
         check_request(request);
@@ -167,7 +174,9 @@ PyMethodDef kSceneRenderMethods[] = {
      "kind 0 is perspective, 1 orthographic; matrix float64 (3, 4); window float64 (4,)."},
     {"start_render", as_method(start_render_method), METH_VARARGS | METH_KEYWORDS,
      "start_render(width, height, samples, seed=0, max_bounces=12, threads=0, passes=(), "
-     "border=None) -> Job"},
+     "border=None, seconds=0, rmse=0, adaptive=False) -> Job\n\n"
+     "Ends with its samples, after `seconds` of wall-clock time, or when the estimated error of the "
+     "picture is `rmse`, whichever comes first; 0 is no limit."},
     {nullptr, nullptr, 0, nullptr}};
 
 }  // namespace trg::py
