@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from dataclasses import replace
 from pathlib import Path
@@ -12,7 +13,15 @@ import pytest
 from trg_blender.engine import session
 from trg_blender.engine.devices import find_device
 from trg_blender.engine.features import FEATURES
-from trg_blender.engine.report import Progress, format_clock, format_progress, with_source
+from trg_blender.engine.image_error import PictureError
+from trg_blender.engine.report import (
+    ENDLESS_SAMPLES,
+    Progress,
+    format_clock,
+    format_progress,
+    seconds_left,
+    with_source,
+)
 from trg_blender.engine.scene_arrays import Material, RenderSettings, Texture
 
 from .arrays import checker, floor_scene, light
@@ -23,6 +32,7 @@ TYPES = {
     "object": dict,
     "array": list,
     "string": str,
+    "boolean": bool,
     "integer": int,
     "number": (int, float),
     "null": type(None),
@@ -36,7 +46,9 @@ def faults(value, schema: dict, at: str = "report") -> list[str]:
     if "enum" in schema:
         return [] if value in schema["enum"] else [f"{at}: {value!r} is none of {schema['enum']}"]
     names = schema["type"] if isinstance(schema["type"], list) else [schema["type"]]
-    if isinstance(value, bool) or not any(isinstance(value, TYPES[name]) for name in names):
+    if isinstance(value, bool) != ("boolean" in names) or not any(
+        isinstance(value, TYPES[name]) for name in names
+    ):
         return [f"{at}: {value!r} is no {' or '.join(names)}"]
     found = []
     if isinstance(value, dict):
@@ -95,7 +107,7 @@ def test_the_report_counts_what_there_is(device: str):
     assert report["error"]["stopped_by"] == "samples"
 
 
-def test_the_history_doubles_and_ends_with_the_picture(device: str):
+def test_the_history_grows_and_ends_with_the_picture(device: str):
     error = render_report(device, samples=100)["error"]
     samples = [entry["samples"] for entry in error["history"]]
     assert samples[-1] == 100
@@ -120,9 +132,53 @@ def test_the_caller_adds_file_frame_and_times(device: str):
 
 
 def test_the_statistics_line_reads_as_documented():
-    progress = Progress(False, False, 12.0, 64, 0.0212, 3.41e6, 1.0, 4.3)
-    assert format_progress(progress) == "sample 12/64, rmse 0.021, 3.4 Mrays/s, 00:04 left"
-    assert format_progress(Progress(False, False, 0.0, 64, None, 0.0, 0.0, None)) == "sample 0/64"
+    error = PictureError(0.0212, (0.0188, 0.0241), 0.1)
+    progress = Progress(False, False, 12.0, 64, error, 3.41e6, 1.0, 4.3)
+    assert format_progress(progress) == "sample 12/64, rmse 0.021 (0.019 to 0.024), 3.4 Mrays/s, 00:04 left"
+    unknown = Progress(False, False, 0.0, 64, PictureError(), 0.0, 0.0, None)
+    assert format_progress(unknown) == "sample 0/64"
+    endless = Progress(False, False, 12.0, ENDLESS_SAMPLES, PictureError(0.02), 0.0, 1.0, 3.0)
+    assert format_progress(endless) == "sample 12, rmse 0.02, 00:03 left"
+    assert endless.share == pytest.approx(0.25)
+
+
+def test_the_first_limit_tells_how_long_it_takes():
+    state = {"samples": 10, "target": 100, "seconds": 2.0}
+    assert seconds_left(state, SETTINGS, PictureError()) == pytest.approx(18.0)
+    assert seconds_left(state, replace(SETTINGS, seconds=5.0), PictureError()) == pytest.approx(3.0)
+    target = replace(SETTINGS, seconds=5.0, rmse=0.1)
+    assert seconds_left(state, target, PictureError(0.1 * math.sqrt(2.0))) == pytest.approx(2.0)
+    assert seconds_left(state, target, PictureError(0.05)) == 0.0
+    assert seconds_left({**state, "samples": 0}, SETTINGS, PictureError()) is None
+
+
+def test_one_sample_gives_no_error_but_a_reason(device: str):
+    error = render_report(device, samples=1)["error"]
+    assert (error["rmse"], error["ci95"], error["evidence"], error["reliable"]) == (None, None, None, False)
+    assert "no spread" in error["note"]
+
+
+def dark_report(device: str, world: float) -> dict:
+    scene = floor_scene(Material(0, 0, 0, specular=0.0))
+    scene.world, scene.instances = (world,) * 3, []
+    return session.render(scene, replace(SETTINGS, device=device)).report
+
+
+def test_pictures_without_noise_say_why_the_error_is_0(device: str):
+    dark, constant = dark_report(device, 0.0)["error"], dark_report(device, 0.5)["error"]
+    assert dark["rmse"] == constant["rmse"] == 0.0
+    assert "no sample has met any light" in dark["note"]
+    assert "every replicate gave the same picture" in constant["note"]
+    assert not dark["reliable"]
+
+
+def test_a_target_that_is_not_met_is_a_warning():
+    if find_device("cpu").reason is not None:
+        pytest.skip(find_device("cpu").reason)
+    report = render_report("cpu", rmse=1e-7)
+    assert report["error"]["target"] == 1e-7
+    assert report["error"]["stopped_by"] == "samples"
+    assert any("was not met" in warning for warning in report["warnings"])
 
 
 @pytest.mark.parametrize(("seconds", "text"), [(0.4, "00:00"), (61, "01:01"), (3725, "1:02:05")])

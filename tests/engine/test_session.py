@@ -121,7 +121,7 @@ def test_progress_grows_to_the_target(settings):
     assert seen == sorted(seen)
     assert (seen[-1], progress.target) == (256, 256)
     assert progress.rays_per_second > 0.0
-    assert progress.rmse is not None
+    assert progress.error.rmse is not None
 
 
 def test_the_seed_is_the_picture(settings):

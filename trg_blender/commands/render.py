@@ -9,6 +9,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import importlib.util
+import math
 import re
 import sys
 import time
@@ -20,7 +21,7 @@ from typing import Any, TextIO
 from .. import cli
 from ..engine.devices import DEVICE_NAMES, INTEGRATORS, Unavailable, require_device
 from ..engine.native import ACCELERATORS
-from ..engine.report import with_source
+from ..engine.report import ENDLESS_SAMPLES, with_source
 from ..lang import ProgramError
 from .parameters import SetError, add_set, parameters_of
 from .render_output import ProgressPrinter, blender_chatter_off, describe_report, frame_path, write_report
@@ -62,6 +63,9 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add("--accel", choices=ACCELERATORS, help="structure that finds the nearest surface")
     add("--integrator", choices=INTEGRATORS, help="how light is gathered")
     add("--samples", type=_at_least(1), metavar="N", help="light paths for each pixel")
+    add("--time", type=_positive, metavar="S", help="stop after so many seconds of tracing")
+    add("--error", type=_positive, metavar="RMSE", help="stop when the picture's estimated error is so small")
+    add("--no-adaptive", action="store_true", help="with --time or --error: all pixels get equal samples")
     add("--seed", type=_at_least(0), metavar="N", help="changes the noise")
     add("--threads", type=_at_least(0), metavar="N", help="0: all cores")
     add("--engine", choices=("TRG", "CYCLES"), default="TRG", help="engine that renders the scene")
@@ -250,6 +254,8 @@ def apply_options(bpy: ModuleType, scene: Any, args: argparse.Namespace) -> None
         value = getattr(args, name)
         if value is not None:
             setattr(scene.trg, name, value)
+    if args.engine == "TRG":
+        set_stops(scene.trg, args)
     if args.threads:
         scene.render.threads_mode, scene.render.threads = "FIXED", args.threads
     elif args.threads == 0:
@@ -259,6 +265,18 @@ def apply_options(bpy: ModuleType, scene: Any, args: argparse.Namespace) -> None
         scene.render.resolution_x, scene.render.resolution_y = args.size
         scene.render.resolution_percentage = 100
     choose_format(scene, args)
+
+
+def set_stops(own: Any, args: argparse.Namespace) -> None:
+    """Time and error end the render; without --samples nothing else does."""
+    if args.time is not None:
+        own.use_time_limit, own.time_limit = True, args.time
+    if args.error is not None:
+        own.use_error_target, own.error_target = True, args.error
+    if args.no_adaptive:
+        own.use_adaptive = False
+    if args.samples is None and (args.time is not None or args.error is not None):
+        own.samples = ENDLESS_SAMPLES
 
 
 def choose_format(scene: Any, args: argparse.Namespace) -> None:
@@ -308,6 +326,16 @@ def _size(text: str) -> tuple[int, int]:
     if match is None or not int(match[1]) or not int(match[2]):
         raise argparse.ArgumentTypeError(f"{text!r} is not a size such as 640x480")
     return int(match[1]), int(match[2])
+
+
+def _positive(text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not (value > 0.0 and math.isfinite(value)):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0")
+    return value
 
 
 def _at_least(lowest: int) -> Any:

@@ -41,10 +41,10 @@ class ProgressPrinter:
             return
         if self.stream.isatty():
             self._draw(progress)
-        elif progress.samples >= self._next_line * progress.target:
+        elif progress.share >= self._next_line:
             self.stream.write(f"{self.title}: {format_progress(progress)}\n")
             self.stream.flush()
-            self._next_line = progress.samples / progress.target + PLAIN_LINE_STEP
+            self._next_line = progress.share + PLAIN_LINE_STEP
 
     def close(self) -> None:
         """Leaves the line of the bar."""
@@ -57,13 +57,13 @@ class ProgressPrinter:
             from tqdm import tqdm
 
             self._bar = tqdm(
-                total=progress.target,
+                total=100,
                 file=self.stream,
                 desc=self.title,
                 bar_format="{desc} {percentage:3.0f}%|{bar}| {postfix}",
                 leave=False,
             )
-        self._bar.n = int(progress.samples)
+        self._bar.n = int(100 * progress.share)
         self._bar.set_postfix_str(format_progress(progress))
 
 
@@ -83,6 +83,8 @@ def describe_report(picture: Path, report: dict[str, Any]) -> str:
     if error["rmse"] is not None and error["ci95"] is not None:
         low, high = error["ci95"]
         lines.append(f"rmse {error['rmse']:.4g} (95 % interval {low:.4g} to {high:.4g})")
+    if error["note"]:
+        lines.append(error["note"])
     lines += [f"warning: {warning}" for warning in report["warnings"]]
     return "\n".join(lines)
 

@@ -23,6 +23,32 @@ STUDENT_95 = {1: 12.7062, 2: 4.3027, 3: 3.1824, 4: 2.7764, 5: 2.5706, 6: 2.4469,
 """Two-sided 95 % points of Student's t by degrees of freedom."""
 
 
+LONELY_ERROR_LIMIT, LONELY_LIMIT, UNSEEN_LIMIT = 0.5, 0.02, 0.1
+"""From these shares on the error cannot be told: benchmarks/calibration.py shows how it holds below."""
+
+
+@dataclass(frozen=True, slots=True)
+class Evidence:
+    """How much of a picture few replicates have found; shares from 0 to 1 (native/cpu/pixel_error.h)."""
+
+    lit: float
+    """of pixels: light somewhere in the five by five around them"""
+    unseen: float
+    """of lit pixels: no replicate has seen light"""
+    lonely: float
+    """of lit pixels: one replicate holds nine tenths of the light"""
+    lonely_error: float
+    """of the mean squared error: what lonely pixels make of it"""
+
+    @property
+    def is_enough(self) -> bool:
+        return (
+            self.lonely_error < LONELY_ERROR_LIMIT
+            and self.lonely < LONELY_LIMIT
+            and self.unseen < UNSEEN_LIMIT
+        )
+
+
 @dataclass(frozen=True, slots=True)
 class PictureError:
     """Over all pixels and linear RGB; None where too few replicates have samples to tell."""
@@ -75,14 +101,17 @@ def estimate_error(material: Mapping[str, Any]) -> PictureError:
     mse = material["mse"]
     if mse is None:
         return PictureError()
-    interval = jackknife_interval(mse, material["delete_one_mse"])
+    interval = jackknife_interval(mse, material["delete_one_mse"], material.get("groups", 1))
     return PictureError(math.sqrt(max(mse, 0.0)), interval, material["relmse"])
 
 
-def jackknife_interval(mse: float, delete_one: tuple[float, ...]) -> tuple[float, float] | None:
+def jackknife_interval(
+    mse: float, delete_one: tuple[float, ...], groups: int = 1
+) -> tuple[float, float] | None:
     """95 % interval of the RMSE; None below three replicates.
 
-    A common factor on all of `delete_one` does not matter.
+    With `groups`, so many equal runs of replicates were drawn apart: each has its own mean and gives one
+    degree of freedom less. A common factor on all of `delete_one` does not matter.
     """
     count = len(delete_one)
     if count < 3:
@@ -91,8 +120,10 @@ def jackknife_interval(mse: float, delete_one: tuple[float, ...]) -> tuple[float
         return (0.0, 0.0)
     # One replicate that holds all the noise would have log 0: it is held at a share of the whole.
     logs = np.log(np.maximum(np.asarray(delete_one, dtype=np.float64), 1e-6 * mse))
-    spread = (count - 1) / count * float(((logs - logs.mean()) ** 2).sum())
-    half_width = 0.5 * STUDENT_95[min(count - 1, 7)] * math.sqrt(spread)
+    each = logs.reshape(groups, -1)
+    size = each.shape[1]
+    spread = (size - 1) / size * float(((each - each.mean(axis=1, keepdims=True)) ** 2).sum())
+    half_width = 0.5 * STUDENT_95[min(count - groups, 7)] * math.sqrt(spread)
     rmse = math.sqrt(mse)
     return (rmse * math.exp(-half_width), rmse * math.exp(half_width))
 

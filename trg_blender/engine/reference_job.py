@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .image_error import measure_error
+from .pixel_error import measure_pixel_error
 from .reference import add_estimate, expose, make_film
 from .reference_path import World
 from .scene_arrays import Float32, Float64, RenderSettings
@@ -27,17 +28,30 @@ class ReferenceJob:
         self._failure: Exception | None = None
         self._start = time.perf_counter()
         self._seconds = 0.0
+        self._late = False
         threading.Thread(target=self._work, args=(world,), daemon=True).start()
 
     def _work(self, world: World) -> None:
         try:
-            for step, batch in expose(world, self._settings, self._cancel.is_set):
+            for step, batch in expose(world, self._settings, self._should_stop):
                 with self._lock:
                     add_estimate(self._film, step, batch)
         except Exception as failure:  # the thread's border: poll() raises it again
             self._failure = failure
         self._seconds = time.perf_counter() - self._start
         self._done.set()
+
+    def _should_stop(self) -> bool:
+        """Cancelled, or out of time once every pixel has a sample."""
+        limit = self._settings.seconds
+        if limit > 0.0 and self._film.samples >= 1 and time.perf_counter() - self._start >= limit:
+            self._late = True
+        return self._late or self._cancel.is_set()
+
+    def _stopped_by(self) -> str:
+        if self._late:
+            return "time"
+        return "cancel" if self._cancel.is_set() else "samples"
 
     def poll(self, timeout_s: float) -> dict[str, Any]:
         """State of the job: at once when done, else after `timeout_s`. Raises what the thread raised."""
@@ -50,6 +64,7 @@ class ReferenceJob:
             return {
                 "done": done,
                 "cancelled": self._cancel.is_set(),
+                "stopped_by": self._stopped_by() if done else None,
                 "samples": film.samples,
                 "target": self._settings.samples,
                 "seconds": seconds,
@@ -86,3 +101,8 @@ class ReferenceJob:
     def error(self) -> dict[str, Any]:
         with self._lock:
             return measure_error(self._film.sums, self._film.counts)
+
+    def pixel_error(self, half_width: Float32, flags: NDArray[np.uint8]) -> dict[str, float]:
+        """Half widths and flags of pixels (h, w), and the evidence of the picture."""
+        with self._lock:
+            return measure_pixel_error(self._film.sums, self._film.counts, half_width, flags)

@@ -186,7 +186,7 @@ class TRGRenderEngine(bpy.types.RenderEngine):
         self._say(progress)
 
     def _say(self, progress: Progress) -> None:
-        self.update_progress(min(progress.samples / max(progress.target, 1), 1.0))
+        self.update_progress(progress.share)
         self.update_stats("TRG", format_progress(progress))
         if records.watcher is not None:
             records.watcher(progress)
@@ -216,6 +216,9 @@ def settings_of(
         width=size[0],
         height=size[1],
         samples=own.samples,
+        seconds=own.time_limit if own.use_time_limit else 0.0,
+        rmse=own.error_target if own.use_error_target else 0.0,
+        adaptive=own.use_adaptive and (own.use_time_limit or own.use_error_target) and device != "embree",
         seed=own.seed,
         max_bounces=own.max_bounces,
         threads=scene.render.threads if scene.render.threads_mode == "FIXED" else 0,

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import sys
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field
 from typing import Any
 
 from numpy.typing import NDArray
 
 from .. import __version__
 from .features import find_features
-from .image_error import PictureError
+from .image_error import Evidence, PictureError
 from .scene_arrays import RenderSettings, SceneArrays
 
 
@@ -31,10 +32,19 @@ class Progress:
     cancelled: bool
     samples: float
     target: int
-    rmse: float | None
+    error: PictureError
     rays_per_second: float
     seconds: float
     seconds_left: float | None
+
+    @property
+    def share(self) -> float:
+        """How much of the render is done, 0 to 1, by the limit that will be met first."""
+        if self.done:
+            return 1.0
+        if self.seconds_left is None:
+            return min(self.samples / max(self.target, 1), 1.0)
+        return self.seconds / max(self.seconds + self.seconds_left, 1e-9)
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +62,7 @@ class RenderFacts:
     warnings: list[str] = field(default_factory=list)
     instruction_set: str | None = None
     threads: int = 1
+    evidence: Evidence | None = None
 
 
 def build_report(facts: RenderFacts) -> dict[str, Any]:
@@ -87,7 +98,7 @@ def build_report(facts: RenderFacts) -> dict[str, Any]:
             "degenerate_triangles": facts.build.get("degenerate_triangles"),
             "clamped": 0,
         },
-        "warnings": [*scene.warnings, *facts.warnings],
+        "warnings": [*scene.warnings, *facts.warnings, *unmet_target(facts)],
     }
 
 
@@ -130,10 +141,62 @@ def error_section(facts: RenderFacts) -> dict[str, Any]:
         "rmse": facts.error.rmse,
         "ci95": interval_list(facts.error),
         "relmse": facts.error.relmse,
-        "target": None,
-        "stopped_by": "cancel" if facts.job["cancelled"] else "samples",
+        "reliable": is_reliable(facts),
+        "note": error_note(facts),
+        "evidence": None if facts.evidence is None else asdict(facts.evidence),
+        "target": facts.settings.rmse or None,
+        "stopped_by": facts.job["stopped_by"],
+        "adaptive": facts.settings.adaptive,
         "history": history,
     }
+
+
+def is_reliable(facts: RenderFacts) -> bool:
+    """Whether `rmse` and its interval may be believed."""
+    return (
+        facts.error.rmse is not None
+        and facts.error.rmse > 0.0
+        and facts.evidence is not None
+        and facts.evidence.is_enough
+    )
+
+
+def error_note(facts: RenderFacts) -> str | None:
+    """Why the error is not known, is 0, or cannot be relied on; None where it says enough itself."""
+    error, evidence = facts.error, facts.evidence
+    if error.rmse is None or evidence is None:
+        return "fewer than two replicates have samples: there is no spread to tell the error from"
+    if error.rmse == 0.0:
+        if evidence.lit == 0.0:
+            return "no sample has met any light: an error of 0 says nothing about light that was missed"
+        return "every replicate gave the same picture: it has no noise"
+    if evidence.is_enough:
+        return None
+    return (
+        f"not reliable: one replicate alone holds the light of {evidence.lonely:.1%} of the lit pixels "
+        f"({evidence.lonely_error:.0%} of the error), none has seen it in {evidence.unseen:.1%}"
+    )
+
+
+def unmet_target(facts: RenderFacts) -> list[str]:
+    """A warning when the render ended before the error that was asked for."""
+    target, rmse = facts.settings.rmse, facts.error.rmse
+    if target <= 0.0 or facts.job["stopped_by"] == "error" or rmse is None or rmse <= target:
+        return []
+    return [f"error target {target:g} was not met: rmse {rmse:.3g} when {facts.job['stopped_by']} ended it"]
+
+
+def seconds_left(state: Mapping[str, Any], settings: RenderSettings, error: PictureError) -> float | None:
+    """Predicted by the limit that comes first; the error falls with the root of the samples."""
+    seconds, samples = state["seconds"], state["samples"]
+    guesses = []
+    if samples > 0:
+        guesses.append(seconds * (state["target"] / samples - 1.0))
+    if settings.seconds > 0.0:
+        guesses.append(settings.seconds - seconds)
+    if settings.rmse > 0.0 and error.rmse is not None:
+        guesses.append(seconds * ((error.rmse / settings.rmse) ** 2 - 1.0))
+    return max(min(guesses), 0.0) if guesses else None
 
 
 def interval_list(error: PictureError) -> list[float] | None:
@@ -183,11 +246,19 @@ def peak_bytes() -> int | None:
     return int(peak) if sys.platform == "darwin" else int(peak) * 1024
 
 
+ENDLESS_SAMPLES = 2**20
+"""As many samples stand for no limit, where time or error end the render."""
+
+
 def format_progress(progress: Progress) -> str:
-    """One line: `sample 12/64, rmse 0.021, 3.4 Mrays/s, 00:04 left`; unknown parts are left out."""
-    parts = [f"sample {int(progress.samples)}/{progress.target}"]
-    if progress.rmse is not None:
-        parts.append(f"rmse {progress.rmse:.2g}")
+    """One line: `sample 12/64, rmse 0.021 (0.019 to 0.023), 3.4 Mrays/s, 00:04 left`; no unknown parts."""
+    endless = progress.target >= ENDLESS_SAMPLES
+    parts = [f"sample {int(progress.samples)}" + ("" if endless else f"/{progress.target}")]
+    error = progress.error
+    if error.rmse is not None:
+        parts.append(f"rmse {error.rmse:.2g}")
+    if error.ci95 is not None:
+        parts[-1] += f" ({error.ci95[0]:.2g} to {error.ci95[1]:.2g})"
     if progress.rays_per_second > 0.0:
         parts.append(f"{format_rate(progress.rays_per_second)}rays/s")
     if progress.seconds_left is not None and not progress.done:

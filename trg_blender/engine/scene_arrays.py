@@ -230,6 +230,12 @@ class RenderSettings:
     height: int
     samples: int = 64
     seed: int = 0
+    seconds: float = 0.0
+    """wall-clock seconds of tracing after which the render stops; 0: no limit"""
+    rmse: float = 0.0
+    """estimated error of the picture (linear) at which the render stops; 0: no such stop"""
+    adaptive: bool = False
+    """more samples where there is more noise"""
     max_bounces: int = 12
     threads: int = 0
     """0: all cores"""

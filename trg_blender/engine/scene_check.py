@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
@@ -38,6 +39,12 @@ def check_settings(settings: RenderSettings) -> None:
             )
     if settings.samples < 1:
         raise SceneError(f"samples is {settings.samples}: it must be 1 or more")
+    for name in ("seconds", "rmse"):
+        limit = getattr(settings, name)
+        if not (math.isfinite(limit) and limit >= 0.0):
+            raise SceneError(f"{name} is {limit}: it must be 0 (no limit) or more")
+    if settings.device == "embree" and (settings.rmse > 0.0 or settings.adaptive):
+        raise SceneError("the reference renderer stops by samples or time, not by error")
     if settings.max_bounces < 0:
         raise SceneError(f"max_bounces is {settings.max_bounces}: it must be 0 or more")
     unknown = sorted(set(settings.passes) - set(PASS_NAMES))

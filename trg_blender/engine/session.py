@@ -5,6 +5,7 @@ Both devices stand behind the same class: the native core, and the reference on 
 
 from __future__ import annotations
 
+import math
 import os
 import time
 from dataclasses import dataclass, replace
@@ -15,11 +16,11 @@ from numpy.typing import NDArray
 
 from .devices import INTEGRATORS, Unavailable, require_device
 from .errors import SceneError
-from .image_error import PictureError, estimate_error
+from .image_error import Evidence, PictureError, estimate_error
 from .native import ACCELERATORS, load_native
 from .native_scene import build_native_scene
 from .passes import PassSource, film_shape, job_passes, read_combined, read_passes
-from .report import HistoryEntry, Progress, RenderFacts, build_report
+from .report import HistoryEntry, Progress, RenderFacts, build_report, seconds_left
 from .scene_arrays import Float32, Float64, RenderSettings, SceneArrays
 from .scene_check import check_scene, check_settings
 
@@ -27,7 +28,8 @@ __all__ = ["RenderJob", "Result", "SceneError", "Unavailable", "render", "start"
 
 POLL_SECONDS = 0.05
 FIRST_ERROR_SAMPLES = 8
-"""The error is measured when every replicate has a sample, then whenever the samples have doubled."""
+ERROR_STEP = 1.4
+"""The error is measured when every replicate has a sample, then when the samples have grown by so much."""
 
 
 class Job(PassSource, Protocol):
@@ -37,6 +39,7 @@ class Job(PassSource, Protocol):
     def cancel(self) -> None: ...
     def replicates(self, sums: Float64, counts: NDArray[np.int64], /) -> None: ...
     def error(self) -> dict[str, Any]: ...
+    def pixel_error(self, half_width: Float32, flags: NDArray[np.uint8], /) -> dict[str, float]: ...
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,6 +107,9 @@ def start_native(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
             settings.threads,
             settings.passes,
             settings.border,
+            settings.seconds,
+            settings.rmse,
+            settings.adaptive,
         )
     except ValueError as refusal:
         raise SceneError(str(refusal)) from refusal
@@ -182,15 +188,20 @@ class RenderJob:
         self._error = estimate_error(self._started.job.error())
         self._history.append(HistoryEntry(state["samples"], state["seconds"], self._error))
         while self._next_error <= state["samples"]:
-            self._next_error *= 2
+            self._next_error = math.ceil(self._next_error * ERROR_STEP)
 
     def _progress(self, state: dict[str, Any]) -> Progress:
         rays = state["rays_camera"] + state["rays_shadow"] + state["rays_bounce"]
-        seconds, samples = state["seconds"], state["samples"]
-        left = seconds * (state["target"] / samples - 1.0) if samples > 0 else None
-        rate = rays / seconds if seconds > 0.0 else 0.0
+        rate = rays / state["seconds"] if state["seconds"] > 0.0 else 0.0
         return Progress(
-            state["done"], state["cancelled"], samples, state["target"], self._error.rmse, rate, seconds, left
+            done=state["done"],
+            cancelled=state["cancelled"],
+            samples=state["samples"],
+            target=state["target"],
+            error=self._error,
+            rays_per_second=rate,
+            seconds=state["seconds"],
+            seconds_left=seconds_left(state, self._settings, self._error),
         )
 
     def _facts(self) -> RenderFacts:
@@ -205,4 +216,12 @@ class RenderJob:
             self._warnings,
             started.instruction_set,
             started.threads,
+            self._evidence(),
         )
+
+    def _evidence(self) -> Evidence | None:
+        """How much of the picture few replicates have found; None below two replicates."""
+        shape = film_shape(self._settings)
+        half_width, flags = np.zeros(shape, np.float32), np.zeros(shape, np.uint8)
+        found = self._started.job.pixel_error(half_width, flags)
+        return None if self._error.rmse is None else Evidence(**found)

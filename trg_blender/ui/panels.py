@@ -72,8 +72,20 @@ class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         layout = self.layout
         layout.use_property_split, layout.use_property_decorate = True, False
-        for name in ("samples", "max_bounces", "seed", "device", "accel", "integrator"):
-            layout.prop(context.scene.trg, name)
+        own = context.scene.trg
+        stops = own.use_time_limit or own.use_error_target
+        layout.prop(own, "samples", text="Max Samples" if stops else "Samples")
+        for use, value in (("use_error_target", "error_target"), ("use_time_limit", "time_limit")):
+            row = layout.row(heading=own.bl_rna.properties[use].name)
+            row.prop(own, use, text="")
+            sub = row.row()
+            sub.enabled = getattr(own, use)
+            sub.prop(own, value, text="")
+        row = layout.row()
+        row.enabled = stops
+        row.prop(own, "use_adaptive")
+        for name in ("max_bounces", "seed", "device", "accel", "integrator"):
+            layout.prop(own, name)
         column = layout.column()
         column.prop(context.scene.render, "threads_mode", text="Threads")
         row = column.row()
@@ -116,8 +128,12 @@ def report_lines(report: dict[str, Any]) -> list[str]:
     error, seconds = report["error"], report["seconds"]
     lines = [f"{report['samples']:g} samples in {seconds['total']:.2f} s"]
     if error.get("rmse") is not None:
-        low, high = error["ci95"]
-        lines.append(f"RMSE {error['rmse']:.4g} (95 %: {low:.4g} to {high:.4g})")
+        lines.append(f"RMSE {error['rmse']:.4g}")
+        if error["ci95"] is not None:
+            low, high = error["ci95"]
+            lines[-1] += f" (95 %: {low:.4g} to {high:.4g})"
+    if error.get("note"):
+        lines.append(error["note"])
     return lines
 
 

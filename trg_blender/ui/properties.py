@@ -48,6 +48,36 @@ class TRGSceneSettings(bpy.types.PropertyGroup):
     samples: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Samples", description="Light paths traced for each pixel", default=64, min=1, soft_max=4096
     )
+    use_time_limit: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Time Limit", description="Stop a frame after some seconds of tracing", default=False
+    )
+    time_limit: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Seconds",
+        description="Wall-clock seconds of tracing for each frame",
+        default=60.0,
+        min=0.01,
+        soft_max=3600.0,
+        subtype="TIME_ABSOLUTE",
+    )
+    use_error_target: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Error Target",
+        description="Stop a frame when its estimated error is small enough",
+        default=False,
+    )
+    error_target: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="RMSE",
+        description="Root of the mean squared error of the linear picture at which the render stops",
+        default=0.01,
+        min=1e-6,
+        soft_max=1.0,
+        precision=4,
+        step=0.1,
+    )
+    use_adaptive: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Adaptive Sampling",
+        description="With a time limit or an error target, spend more samples where there is more noise",
+        default=True,
+    )
     seed: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Seed", description="Changes the noise; equal seeds give equal pictures", default=0, min=0
     )

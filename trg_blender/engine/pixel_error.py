@@ -1,0 +1,66 @@
+"""The error of each pixel from replicate sums, as native/cpu/pixel_error.cpp measures it."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from .image_error import STUDENT_95
+from .scene_arrays import Float32, Float64
+
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+REACH = 2
+"""of the neighbourhood, in pixels"""
+LONELY_SHARE = 0.9
+UNSEEN, LONELY = 1, 2
+
+
+def measure_pixel_error(
+    sums: Float64, counts: NDArray[np.int64], half_width: Float32, flags: NDArray[np.uint8]
+) -> dict[str, float]:
+    """Fills `half_width` (h, w), the 95 % half width of each pixel's luminance, and `flags` (h, w).
+
+    `sums` is (r, h, w, 3), `counts` (r,). The variance is the larger of the pixel's own and the mean over
+    the five by five pixels around it. Flags: 1 no replicate has seen light, 2 one holds nine tenths of it.
+    Gives the fields of image_error.Evidence. All 0 below two replicates.
+    """
+    half_width[...], flags[...] = 0.0, 0
+    used = counts > 0
+    replicates = int(used.sum())
+    if replicates < 2:
+        return {"lit": 0.0, "unseen": 0.0, "lonely": 0.0, "lonely_error": 0.0}
+    weights = counts[used].astype(np.float64)[:, None, None]
+    means = (sums[used] @ LUMINANCE) / weights
+    mean = (weights * means).sum(axis=0) / weights.sum()
+    spread = (weights * (means - mean) ** 2).sum(axis=0)
+    variance = spread / ((replicates - 1) * weights.sum())
+    light = np.abs(means)
+    total = light.sum(axis=0)
+    flags[total == 0.0] = UNSEEN
+    flags[(total > 0.0) & (light.max(axis=0) >= LONELY_SHARE * total)] = LONELY
+    half_width[...] = STUDENT_95[replicates - 1] * np.sqrt(np.maximum(variance, pooled(variance)))
+    return evidence_of(pooled(total) > 0.0, flags, variance)
+
+
+def evidence_of(lit: NDArray[np.bool_], flags: NDArray[np.uint8], variance: Float64) -> dict[str, float]:
+    count, error = max(int(lit.sum()), 1), float(variance[lit].sum())
+    lonely = lit & (flags == LONELY)
+    return {
+        "lit": float(lit.mean()),
+        "unseen": float((lit & (flags == UNSEEN)).sum()) / count,
+        "lonely": float(lonely.sum()) / count,
+        "lonely_error": float(variance[lonely].sum()) / error if error > 0.0 else 0.0,
+    }
+
+
+def pooled(values: Float64) -> Float64:
+    """Mean over the neighbourhood of each pixel, cut at the borders."""
+    height, width = values.shape
+    total, count = np.zeros((height, width)), np.zeros((height, width))
+    for dy in range(-REACH, REACH + 1):
+        for dx in range(-REACH, REACH + 1):
+            here = np.s_[max(-dy, 0) : height - max(dy, 0), max(-dx, 0) : width - max(dx, 0)]
+            there = np.s_[max(dy, 0) : height - max(-dy, 0), max(dx, 0) : width - max(-dx, 0)]
+            total[here] += values[there]
+            count[here] += 1.0
+    return total / count
