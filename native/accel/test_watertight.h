@@ -35,7 +35,7 @@ TRG_FN Float8 edge_function(const ShearedCorner& a, const ShearedCorner& b) {
     return subtract_product(a.x * b.y, a.y, b.x);
 }
 
-TRG_FN LaneMasks filter_lanes(const CornerBlock& block, const TracedRay& ray) {
+TRG_INLINE_FN LaneMasks filter_lanes(const CornerBlock& block, const TracedRay& ray) {
     const ShearedCorner a = shear_corner(block.corner[0], ray);
     const ShearedCorner b = shear_corner(block.corner[1], ray);
     const ShearedCorner c = shear_corner(block.corner[2], ray);
@@ -144,7 +144,7 @@ TRG_FN void test_closest(const CornerBlock& block, const TracedRay& ray, Search&
     }
 }
 
-TRG_FN bool test_any(const CornerBlock& block, const TracedRay& ray, float t_max) {
+TRG_INLINE_FN bool test_any(const CornerBlock& block, const TracedRay& ray, float t_max) {
     const LaneMasks lanes = filter_lanes(block, ray);
     for (uint32_t left = lanes.possible; left; left &= left - 1) {
         const int lane = lowest_bit(left);

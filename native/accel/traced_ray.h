@@ -27,7 +27,7 @@ struct TracedRay : ExactRay {
     float shear_x, shear_y;  // direction[kx], direction[ky] over direction[kz]
 };
 
-TRG_FN TracedRay prepare_ray(Vec3 origin, Vec3 direction, float t_min) {
+TRG_INLINE_FN TracedRay prepare_ray(Vec3 origin, Vec3 direction, float t_min) {
     TracedRay ray;
     const float o[3] = {origin.x, origin.y, origin.z};
     const float d[3] = {direction.x, direction.y, direction.z};

@@ -48,7 +48,8 @@ struct QuickBoxTest {
                    (std::fabs(ray.far_origin[axis] * ray.far_inverse[axis]) < kLargest);
         return fits;
     }
-    explicit QuickBoxTest(const RayBounds& ray) {
+    QuickBoxTest() = default;
+    TRG_INLINE_METHOD explicit QuickBoxTest(const RayBounds& ray) {
         for (int axis = 0; axis < 3; ++axis) {
             const float near = ray.near_origin[axis] * ray.near_inverse[axis];
             const float far = ray.far_origin[axis] * ray.far_inverse[axis];
@@ -93,10 +94,11 @@ struct NodeTest {
     Float8 t_min;
     int near[3];
 
+    NodeTest() = default;
     explicit NodeTest(const RayBounds& ray)
         : box(ray), t_min(splat8(ray.t_min)), near{ray.sign[0], ray.sign[1], ray.sign[2]} {}
 
-    ChildHits meet(const WideNode& node, float limit) const {
+    TRG_INLINE_METHOD ChildHits meet(const WideNode& node, float limit) const {
         // Distances go first into min8 and max8, where a NaN is dropped.
         Float8 entry = t_min, exit = splat8(limit);
         for (int axis = 0; axis < 3; ++axis) {
@@ -146,7 +148,8 @@ TRG_FN uint32_t least_of(__m256i keys) {
 
 /// The nearest child of `hits`; the others are pushed, the next nearest last. Keys are the entry
 /// distances, whose three lowest bits make room for the lane.
-TRG_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits, WalkStack& stack) {
+TRG_INLINE_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits,
+                                           WalkStack& stack) {
     const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     const __m256i bits =
         _mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(hits.entry.v));
@@ -169,7 +172,8 @@ TRG_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits,
 
 #else
 
-TRG_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits, WalkStack& stack) {
+TRG_INLINE_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits,
+                                           WalkStack& stack) {
     const int first = stack.size;
     for (uint32_t left = hits.mask; left; left &= left - 1) {
         const int lane = lowest_bit(left);
@@ -187,7 +191,8 @@ TRG_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits,
 #endif
 
 /// Any child of `hits`; the others are pushed as they come, without distances.
-TRG_FN NodeRef push_all_but_one(const WideNode& node, const ChildHits& hits, WalkStack& stack) {
+TRG_INLINE_FN NodeRef push_all_but_one(const WideNode& node, const ChildHits& hits,
+                                       WalkStack& stack) {
 #if defined(__AVX512VL__)
     const __m256i children = _mm256_load_si256(reinterpret_cast<const __m256i*>(node.child));
     _mm256_storeu_si256(reinterpret_cast<__m256i*>(stack.ref + stack.size),

@@ -33,7 +33,7 @@ TRG_FN int count_bits(uint32_t mask) {
 #endif
 }
 
-TRG_FN void prefetch(const void* address) {
+TRG_INLINE_FN void prefetch(const void* address) {
 #if defined(__AVX2__)
     _mm_prefetch(static_cast<const char*>(address), _MM_HINT_T0);
 #elif defined(__GNUC__)

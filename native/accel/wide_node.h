@@ -21,8 +21,9 @@ constexpr NodeRef kLeafBit = 0x80000000u;
 constexpr NodeRef kNoNode = 0xffffffffu;
 constexpr int64_t kMostBlocks = 0x7ffffffe;
 
-/// Levels of the tree at most; with eight children a level it bounds the stack of a traversal.
+/// Levels of a tree at most; with eight children a level it bounds the stack of a walk through two,
+/// one of them in a leaf of the other.
 constexpr int kMostLevels = 64;
-constexpr int kStackSize = kMostLevels * (kWidth - 1) + kWidth;
+constexpr int kStackSize = 2 * kMostLevels * (kWidth - 1) + kWidth;
 
 }  // namespace trg

@@ -149,12 +149,17 @@ void count_up(const WorldIndex& index, BuildStats* stats) {
         stats->nodes += soup_nodes(*soup);
         stats->triangles += soup->triangles;
         stats->degenerate_triangles += soup->degenerate;
-        stats->bytes += soup_bytes(*soup);
     }
     stats->nodes += static_cast<int64_t>(index.top.nodes.size());
-    stats->bytes += static_cast<int64_t>(index.top.nodes.size() * sizeof(WideNode) +
-                                         (index.placements.size() + index.unbounded.size()) *
-                                             sizeof(Placement));
+    stats->bytes += index.bytes;
+}
+
+int64_t index_bytes(const WorldIndex& index) {
+    const size_t placed = index.placements.size() + index.unbounded.size();
+    int64_t bytes = static_cast<int64_t>(index.top.nodes.size() * sizeof(WideNode) +
+                                         placed * sizeof(Placement));
+    for (const auto& soup : index.soups) bytes += soup_bytes(*soup);
+    return bytes;
 }
 
 }  // namespace
@@ -170,6 +175,7 @@ void place_soups(const World& world, WorldIndex& index, int threads) {
     for (const LeafRange& leaf : index.top.leaves)
         index.placements.push_back(placement_of(world, index, refs[leaf.begin].item));
     index.top.leaves = {};
+    index.bytes = index_bytes(index);
 }
 
 BuildStats build_world(World& world, int threads, double rays) {

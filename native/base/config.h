@@ -5,6 +5,15 @@
 /// copy, so that the linker can never put AVX code into the baseline build.
 #define TRG_FN [[maybe_unused]] static inline
 
+/// As TRG_FN, for the few steps of inner loops that must not become calls.
+#if defined(__GNUC__)
+#define TRG_INLINE_FN [[maybe_unused]] __attribute__((always_inline)) static inline
+#define TRG_INLINE_METHOD __attribute__((always_inline))
+#else
+#define TRG_INLINE_FN [[maybe_unused]] static inline
+#define TRG_INLINE_METHOD
+#endif
+
 /// As TRG_FN, for what is rarely called and must not take registers from its callers.
 #if defined(__GNUC__)
 #define TRG_RARE_FN [[maybe_unused]] __attribute__((noinline, cold)) static
