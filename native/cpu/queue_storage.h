@@ -16,6 +16,7 @@ class QueueStorage {
           states_(capacity),
           keys_(capacity),
           results_(capacity),
+          receivers_(capacity),
           shadow_rays_(static_cast<size_t>(capacity) * lights),
           shadows_(static_cast<size_t>(capacity) * lights),
           hidden_(static_cast<size_t>(capacity) * (lights > 1 ? lights : 1)),
@@ -23,8 +24,9 @@ class QueueStorage {
 
     PathQueues view() {
         const int32_t capacity = static_cast<int32_t>(rays_.size());
-        return {capacity,        rays_.data(),        hits_.data(),    states_.data(), keys_.data(),
-                results_.data(), shadow_rays_.data(), shadows_.data(), hidden_.data()};
+        return {capacity,        rays_.data(),    hits_.data(),      states_.data(),
+                keys_.data(),    results_.data(), receivers_.data(), shadow_rays_.data(),
+                shadows_.data(), hidden_.data()};
     }
     float* depth() { return depth_.data(); }
 
@@ -34,6 +36,7 @@ class QueueStorage {
     std::vector<PathState> states_;
     std::vector<SampleKey> keys_;
     std::vector<PathResult> results_;
+    std::vector<Vec3> receivers_;
     std::vector<Ray> shadow_rays_;
     std::vector<ShadowState> shadows_;
     std::vector<uint8_t> hidden_;

@@ -75,13 +75,17 @@ TRG_FN void add_sky_sample(const EnvironmentView& sky, const Vertex& v, ShadowQu
     if (sample_sky(sky, bits, &sample)) queue_sample<F>(sample, v, 1.0f, queue);
 }
 
-/// Queues what a random point of the emissive triangles sends to `v`.
+/// An emissive triangle and how often its points are drawn, by area and unit of emission_weight.
+struct TriangleChoice {
+    EmissiveTriangle at;
+    float density;
+};
+
+/// Queues what a random point of an emissive triangle sends to `v`.
 template <uint32_t F>
-TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v, uint32_t choice,
-                                Sample2 uv, ShadowQueue* queue) {
-    const EmitterView& e = scene.emitters;
-    const EmissiveTriangle& at =
-        e.triangles[find_share(e.triangle_limits, e.triangle_count, choice)];
+TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v,
+                                const TriangleChoice& choice, Sample2 uv, ShadowQueue* queue) {
+    const EmissiveTriangle& at = choice.at;
     const Surface s = sample_emitter<F>(scene, at, uv.u, uv.v);
     const Material& m = scene.materials[s.material];
     const bool in_front = dot(s.outside, v.surface.position - s.position) > 0.0f;
@@ -91,7 +95,7 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v, uint32_
     const Vec3 wi = to / std::sqrt(d2);
     const float cosine = std::fabs(dot(s.outside, wi));
     if (!(d2 > 0.0f) || !(cosine > 0.0f)) return;
-    const float pdf = e.triangle_density * s.sampling * m.emission_weight * d2 / cosine;
+    const float pdf = choice.density * s.sampling * m.emission_weight * d2 / cosine;
     const BsdfValue f = eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, wi));
     const Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, s, -wi) *
                        (power_heuristic(pdf, f.pdf) / pdf);
@@ -99,6 +103,31 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v, uint32_
     const Vec3 origin = ray_origin(v.surface, v.ng, wi);
     queue->rays[queue->count] = {origin, 0.0f, target - origin, 1.0f};
     queue->states[queue->count++] = {light, v.path};
+}
+
+/// The normal of the side that light must come from to be scattered; null where it may be any.
+template <uint32_t F>
+TRG_FN Vec3 receiver_of(const Vertex& v) {
+    if (has(F, kTransmission) && v.bsdf.glass > 0.0f) return {0.0f, 0.0f, 0.0f};
+    return v.frame.n;
+}
+
+/// Queues one sample of the emitters in the tree.
+template <uint32_t F>
+TRG_FN void add_tree_sample(const SceneView& scene, const Vertex& v, const uint32_t bits[2],
+                            Sample2 uv, ShadowQueue* queue) {
+    const LightTreeView& tree = scene.emitters.tree;
+    const TreeChoice choice = sample_tree(tree, v.surface.position, receiver_of<F>(v), bits);
+    if (!(choice.chance > 0.0f)) return;
+    const LightNode& leaf = tree.nodes[choice.node];
+    if (leaf.emitter >= 0) {
+        add_light_sample<F>(scene.lights[leaf.emitter], v, choice.chance, uv, queue);
+        return;
+    }
+    if constexpr (has(F, kExtendedEmitters))
+        add_triangle_sample<F>(
+            scene, v, {scene.emitters.triangles[~leaf.emitter], choice.chance / leaf.power}, uv,
+            queue);
 }
 
 /// All light samples of one vertex.
@@ -113,14 +142,23 @@ TRG_FN void add_light_samples(const SceneView& scene, const Vertex& v, ShadowQue
     if (e.pool_count == 0) return;
     const Sample2 uv = sample_uniform2(v.key, v.dimension + kPoolPoint);
     uint32_t choice[2] = {0, 0};
-    if (e.pool_count > 1 || e.triangle_count > 1)
+    if (e.pool_count > 1 || e.triangle_count > 1 || e.tree.nodes)
         sample_bits(v.key, v.dimension + kPoolChoice, choice);
+    if (e.tree.nodes && e.pool_count == 1) {
+        add_tree_sample<F>(scene, v, choice, uv, queue);
+        return;
+    }
     const int32_t entry = find_share(e.pool_limits, e.pool_count, choice[0]);
     if (e.pool[entry] >= 0) {
         add_light_sample<F>(scene.lights[e.pool[entry]], v, e.pool_shares[entry], uv, queue);
+    } else if (e.tree.nodes) {
+        sample_bits(v.key, v.dimension + kTreeChoice, choice);
+        add_tree_sample<F>(scene, v, choice, uv, queue);
     } else {
-        if constexpr (has(F, kExtendedEmitters))
-            add_triangle_sample<F>(scene, v, choice[1], uv, queue);
+        if constexpr (has(F, kExtendedEmitters)) {
+            const int32_t k = find_share(e.triangle_limits, e.triangle_count, choice[1]);
+            add_triangle_sample<F>(scene, v, {e.triangles[k], e.triangle_density}, uv, queue);
+        }
     }
 }
 

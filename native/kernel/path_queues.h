@@ -34,6 +34,7 @@ struct PathQueues {
     PathState* states;
     SampleKey* keys;      // by path
     PathResult* results;  // by path
+    Vec3* receivers;  // by path: normal that light was drawn for last, null for any; for the tree
     Ray* shadow_rays;
     ShadowState* shadows;
     uint8_t* hidden;
@@ -73,7 +74,8 @@ enum Dimension : uint32_t {
     kPoolChoice = 3,
     kAlwaysLight = 4,  // and the three after it
     kSkyLight = 8,
-    kDimensionsPerBounce = 9,
+    kTreeChoice = 9,  // where the tree is one of several
+    kDimensionsPerBounce = 10,
 };
 constexpr int kMostAlwaysLights = 4;
 

@@ -3,6 +3,7 @@
 
 #include "accel/world.h"
 #include "shade/environment.h"
+#include "shade/light_tree.h"
 #include "shade/lights.h"
 #include "shade/material.h"
 #include "shade/texture_set.h"
@@ -41,7 +42,7 @@ struct EmissiveTriangle {
 struct EmitterView {
     const int32_t* always;  // lights that get a sample at every point
     int32_t always_count;
-    const int32_t* pool;  // lights that share one sample; -1: the emissive triangles
+    const int32_t* pool;  // lights that share one sample; -1: the emissive triangles, or the tree
     const uint32_t* pool_limits;
     const float* pool_shares;
     int32_t pool_count;
@@ -52,6 +53,7 @@ struct EmitterView {
     const uint32_t* triangle_limits;
     int32_t triangle_count;
     float triangle_density;  // chance, by area and per unit of emission_weight, of a point
+    LightTreeView tree;      // where it is, it draws the triangles and most lights
 };
 
 struct CameraView {

@@ -18,6 +18,39 @@ struct ShadeStage {
     int32_t next_count;
 };
 
+/// What the lights of the tree add to a bounce ray; `receiver` as the last surface drew light.
+TRG_FN Vec3 gather_tree(const SceneView& scene, const Ray& ray, float t_end, float pdf,
+                        Vec3 receiver) {
+    struct Branch {
+        int32_t node;
+        float chance;
+    };
+    constexpr int kDeepest = 64;
+    const LightTreeView& tree = scene.emitters.tree;
+    Branch stack[kDeepest];
+    int height = 0;
+    stack[height++] = {0, tree.share};
+    Vec3 sum{0.0f, 0.0f, 0.0f};
+    while (height > 0) {
+        const Branch at = stack[--height];
+        const LightNode& node = tree.nodes[at.node];
+        if (!ray_meets_node(node, ray.origin, ray.direction, t_end)) continue;
+        if (node.second >= 0) {
+            const float first = first_chance(tree, at.node, ray.origin, receiver);
+            const bool dark = first < 0.0f;
+            stack[height++] = {at.node + 1, dark ? 0.0f : at.chance * first};
+            stack[height++] = {node.second, dark ? 0.0f : at.chance * (1.0f - first)};
+            continue;
+        }
+        LightHit hit;
+        if (node.emitter < 0 || !scene.lights[node.emitter].extended ||
+            !intersect_light(scene.lights[node.emitter], ray.origin, ray.direction, t_end, &hit))
+            continue;
+        sum = sum + hit.radiance * (pdf > 0.0f ? power_heuristic(pdf, at.chance * hit.pdf) : 1.0f);
+    }
+    return sum;
+}
+
 /// What lights with extent add to a bounce ray that ends at `t_end`.
 TRG_FN Vec3 gather_lights(const SceneView& scene, const Ray& ray, float t_end, float pdf) {
     Vec3 sum{0.0f, 0.0f, 0.0f};
@@ -49,17 +82,26 @@ TRG_FN Vec3 world_seen(const SceneView& scene, Vec3 direction, float pdf, int32_
     return scene.background;
 }
 
+/// How often the points of the emissive triangle hit are drawn, by area and unit of weight.
+TRG_FN float triangle_density(const EmitterView& e, Vec3 p, const Hit& hit, Vec3 receiver) {
+    if (!e.tree.nodes) return e.triangle_density;
+    const int32_t first = e.tree.first_leaf[hit.instance];
+    const int32_t leaf = first < 0 ? -1 : e.tree.leaves[first + hit.triangle];
+    return leaf < 0 ? 0.0f : tree_chance(e.tree, leaf, p, receiver) / e.tree.nodes[leaf].power;
+}
+
 /// Emission of the surface met, weighted against the chance of sampling it as a light.
 template <uint32_t F>
-TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Ray& ray, float t,
-                          float pdf) {
+TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Ray& ray, const Hit& hit,
+                          float pdf, Vec3 receiver) {
     const Material& m = scene.materials[s.material];
     const Vec3 light = eval_emission<F>(scene, s, -normalize(ray.direction));
-    if (!(pdf > 0.0f) || !(scene.emitters.triangle_density > 0.0f)) return light;
+    if (!(pdf > 0.0f)) return light;
     const float cosine = std::fabs(dot(s.outside, ray.direction));
-    if (!(cosine > 0.0f)) return light;
-    const float density = scene.emitters.triangle_density * s.sampling * m.emission_weight;
-    return light * power_heuristic(pdf, density * t * t / cosine);
+    const float chosen = triangle_density(scene.emitters, ray.origin, hit, receiver);
+    if (!(cosine > 0.0f) || !(chosen > 0.0f)) return light;
+    const float density = chosen * s.sampling * m.emission_weight;
+    return light * power_heuristic(pdf, density * hit.t * hit.t / cosine);
 }
 
 /// The material at the point, its textures looked up.
@@ -130,6 +172,7 @@ TRG_FN void continue_path(ShadeStage& stage, const Vertex& v) {
     const int32_t slot = stage.next_count++;
     stage.queues.rays[slot] = {ray_origin(v.surface, v.ng, wi), 0.0f, wi, kFar};
     stage.queues.states[slot] = {throughput, next.pdf, v.path};
+    if (stage.view.scene.emitters.tree.nodes) stage.queues.receivers[v.path] = receiver_of<F>(v);
 }
 
 /// One path at the end of its ray. Slots are written at or before the one being read.
@@ -146,6 +189,12 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
                 result.radiance + state.throughput * gather_lights(scene, ray,
                                                                    hit.triangle >= 0 ? hit.t : kFar,
                                                                    state.pdf);
+    if constexpr (has(F, kExtendedEmitters))
+        if (stage.depth > 0 && scene.emitters.tree.has_extended)
+            result.radiance =
+                result.radiance +
+                state.throughput * gather_tree(scene, ray, hit.triangle >= 0 ? hit.t : kFar,
+                                               state.pdf, stage.queues.receivers[state.path]);
     if (hit.triangle < 0) {
         result.radiance =
             result.radiance +
@@ -159,7 +208,8 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
         if (scene.materials[v.surface.material].emission_weight > 0.0f)
             result.radiance =
                 result.radiance +
-                state.throughput * emission_seen<F>(scene, v.surface, ray, hit.t, state.pdf);
+                state.throughput * emission_seen<F>(scene, v.surface, ray, hit, state.pdf,
+                                                    stage.queues.receivers[state.path]);
     if (stage.depth > stage.view.max_bounces) return;
     Vec3 normal;
     const bool scatters = make_vertex<F>(scene, -normalize(ray.direction), &v, &normal);

@@ -16,13 +16,17 @@ std::vector<uint32_t> cumulate(const std::vector<double>& weights) {
     return limits;
 }
 
-double world_area(const Scene& scene, const EmissiveTriangle& at) {
+void corners_of(const Scene& scene, const EmissiveTriangle& at, Vec3 p[3]) {
     const Instance& instance = scene.world.instances[at.instance];
     const Mesh& mesh = scene.world.meshes[instance.mesh];
     const Triangle& t = mesh.triangles[at.triangle];
-    Vec3 p[3];
     for (int k = 0; k < 3; ++k)
         p[k] = transform_point(instance.object_to_world, mesh.vertices[t.vertex[k]]);
+}
+
+double world_area(const Scene& scene, const EmissiveTriangle& at) {
+    Vec3 p[3];
+    corners_of(scene, at, p);
     const Vec3d n = cross(to_double(p[1]) - to_double(p[0]), to_double(p[2]) - to_double(p[0]));
     const double area = 0.5 * std::sqrt(dot(n, n));
     return std::isfinite(area) ? area : 0.0;
@@ -53,8 +57,8 @@ int32_t material_index(const Scene& scene, const EmissiveTriangle& at) {
     return scene.slot_materials[scene.first_slot[at.instance] + std::min(slot, count - 1)];
 }
 
-/// Fills in the emissive triangles; returns the sum of area times luminance.
-double gather_triangles(const Scene& scene, EmitterTables* tables) {
+/// Fills in the emissive triangles; returns the area times luminance of each.
+std::vector<double> gather_triangles(const Scene& scene, EmitterTables* tables) {
     std::vector<double> weights;
     for (size_t i = 0; i < scene.world.instances.size(); ++i) {
         if (!any_slot_emits(scene, static_cast<int32_t>(i))) continue;
@@ -73,9 +77,68 @@ double gather_triangles(const Scene& scene, EmitterTables* tables) {
             weights.push_back(weight);
         }
     }
-    if (weights.empty()) return 0.0;
-    tables->triangle_limits = cumulate(weights);
-    return std::accumulate(weights.begin(), weights.end(), 0.0);
+    return weights;
+}
+
+Vec3 absolute_axes(Vec3 a, Vec3 b) {
+    return absolute(a) + absolute(b);
+}
+
+/// A light for the tree; false for those that stay in the list.
+bool bounds_light(const Light& light, int32_t index, EmitterBounds* e) {
+    const double brightness = std::fabs(luminance(light.color));
+    Vec3 half{light.radius, light.radius, light.radius};
+    *e = {light.position, light.position, {0.0f, 0.0f, 1.0f}, kPi,
+          0.5f * kPi,     false,          brightness,         index};
+    switch (light.kind) {
+        case LightKind::sun:
+            return false;
+        case LightKind::point:
+        case LightKind::spot:
+            if (!light.inverse_square) return false;
+            if (light.extended)
+                e->power *= kPi * light.radius * light.radius;
+            else
+                half = {0.0f, 0.0f, 0.0f};
+            if (light.kind == LightKind::point) break;
+            e->axis = light.direction;
+            e->spread = 0.0f;
+            e->reach = std::acos(std::clamp(light.cos_outer, -1.0f, 1.0f)) + 1e-3f;
+            break;
+        default:
+            half = absolute_axes(light.axis_u, light.axis_v);
+            e->axis = light.direction;
+            e->spread = 0.0f;
+            e->power *= light.area;
+    }
+    e->low = light.position - half;
+    e->high = light.position + half;
+    return true;
+}
+
+EmitterBounds bounds_triangle(const Scene& scene, const EmissiveTriangle& at, int32_t index) {
+    const Instance& instance = scene.world.instances[at.instance];
+    EmitterBounds e{{}, {}, {0.0f, 0.0f, 1.0f}, kPi, 0.5f * kPi, true, 0.0, ~index};
+    if (scene.world.meshes[instance.mesh].shape == Shape::sphere) {
+        const auto& m = instance.object_to_world.m;
+        const Vec3 centre{m[0][3], m[1][3], m[2][3]};
+        const auto reach = [&](int k) { return length(Vec3{m[k][0], m[k][1], m[k][2]}); };
+        const Vec3 half{reach(0), reach(1), reach(2)};
+        e.low = centre - half;
+        e.high = centre + half;
+        return e;
+    }
+    Vec3 p[3];
+    corners_of(scene, at, p);
+    e.low = {std::min({p[0].x, p[1].x, p[2].x}), std::min({p[0].y, p[1].y, p[2].y}),
+             std::min({p[0].z, p[1].z, p[2].z})};
+    e.high = {std::max({p[0].x, p[1].x, p[2].x}), std::max({p[0].y, p[1].y, p[2].y}),
+              std::max({p[0].z, p[1].z, p[2].z})};
+    const Vec3 n = normalize_safe(cross(p[1] - p[0], p[2] - p[0]));
+    if (is_black(n)) return e;
+    e.axis = n;
+    e.spread = 0.0f;
+    return e;
 }
 
 double power_of(const Light& light) {
@@ -117,6 +180,59 @@ std::vector<double> split_lights(const std::vector<Light>& lights, EmitterTables
     return powers;
 }
 
+/// Where the leaves of the triangles lie in the tree.
+void index_leaves(const Scene& scene, EmitterTables* tables) {
+    tables->first_leaf.assign(scene.world.instances.size(), -1);
+    for (const EmissiveTriangle& at : tables->triangles) {
+        int32_t& first = tables->first_leaf[at.instance];
+        if (first >= 0) continue;
+        first = static_cast<int32_t>(tables->leaves.size());
+        const size_t count =
+            scene.world.meshes[scene.world.instances[at.instance].mesh].triangles.size();
+        tables->leaves.resize(tables->leaves.size() + std::max<size_t>(count, 1), -1);
+    }
+    for (size_t k = 0; k < tables->tree.size(); ++k) {
+        const LightNode& node = tables->tree[k];
+        if (node.second >= 0 || node.emitter >= 0) continue;
+        const EmissiveTriangle& at = tables->triangles[~node.emitter];
+        tables->leaves[tables->first_leaf[at.instance] + at.triangle] = static_cast<int32_t>(k);
+    }
+}
+
+/// Moves what can be there from the pool, whose `powers` go along, into a tree; returns the power
+/// of all that is in it, 0 where a list does as well.
+double plant_tree(const Scene& scene, const std::vector<double>& weights,
+                  std::vector<double>* powers, EmitterTables* tables) {
+    const std::vector<Light>& lights = scene.tables.lights;
+    std::vector<EmitterBounds> bounds;
+    std::vector<int32_t> left;
+    std::vector<double> left_powers;
+    double total = 0.0;
+    for (size_t k = 0; k < tables->pool.size(); ++k) {
+        EmitterBounds e;
+        if (bounds_light(lights[tables->pool[k]], tables->pool[k], &e)) {
+            bounds.push_back(e);
+            total += (*powers)[k];
+        } else {
+            left.push_back(tables->pool[k]);
+            left_powers.push_back((*powers)[k]);
+        }
+    }
+    if (bounds.size() + weights.size() <= kMostListed) return 0.0;
+    for (const EmitterBounds& e : bounds)
+        tables->tree_has_extended = tables->tree_has_extended || lights[e.emitter].extended;
+    for (size_t k = 0; k < weights.size(); ++k) {
+        bounds.push_back(bounds_triangle(scene, tables->triangles[k], static_cast<int32_t>(k)));
+        bounds.back().power = weights[k];
+        total += 2.0 * kPi * weights[k];
+    }
+    tables->pool.swap(left);
+    powers->swap(left_powers);
+    tables->tree = build_light_tree(bounds);
+    index_leaves(scene, tables);
+    return total;
+}
+
 void list_extended(const std::vector<Light>& lights, EmitterTables* tables) {
     for (int32_t index : tables->always)
         if (lights[index].extended) {
@@ -135,10 +251,13 @@ void list_extended(const std::vector<Light>& lights, EmitterTables* tables) {
 EmitterTables build_emitters(const Scene& scene) {
     EmitterTables tables;
     std::vector<double> powers = split_lights(scene.tables.lights, &tables);
-    const double triangle_weight = gather_triangles(scene, &tables);
-    if (triangle_weight > 0.0) {
+    const std::vector<double> weights = gather_triangles(scene, &tables);
+    const double triangle_weight = std::accumulate(weights.begin(), weights.end(), 0.0);
+    const double tree_power = plant_tree(scene, weights, &powers, &tables);
+    const double shared_power = tree_power > 0.0 ? tree_power : 2.0 * kPi * triangle_weight;
+    if (shared_power > 0.0) {
         tables.pool.push_back(-1);
-        powers.push_back(2.0 * kPi * triangle_weight);
+        powers.push_back(shared_power);
     }
     if (!powers.empty()) {
         const double total = std::accumulate(powers.begin(), powers.end(), 0.0);
@@ -148,19 +267,33 @@ EmitterTables build_emitters(const Scene& scene) {
         for (double power : powers)
             tables.pool_shares.push_back(static_cast<float>(power / (1.001 * total)));
     }
-    if (triangle_weight > 0.0)
+    if (tree_power > 0.0) {
+        tables.tree_share = tables.pool_shares.back();
+    } else if (triangle_weight > 0.0) {
+        tables.triangle_limits = cumulate(weights);
         tables.triangle_density = static_cast<float>(tables.pool_shares.back() / triangle_weight);
+    }
     list_extended(scene.tables.lights, &tables);
     return tables;
 }
 
 EmitterView view_emitters(const EmitterTables& t) {
     const auto size = [](const auto& v) { return static_cast<int32_t>(v.size()); };
-    return {t.always.data(),      size(t.always),           t.pool.data(),
-            t.pool_limits.data(), t.pool_shares.data(),     size(t.pool),
-            t.extended.data(),    t.extended_shares.data(), size(t.extended),
-            t.triangles.data(),   t.triangle_limits.data(), size(t.triangles),
-            t.triangle_density};
+    return {t.always.data(),
+            size(t.always),
+            t.pool.data(),
+            t.pool_limits.data(),
+            t.pool_shares.data(),
+            size(t.pool),
+            t.extended.data(),
+            t.extended_shares.data(),
+            size(t.extended),
+            t.triangles.data(),
+            t.triangle_limits.data(),
+            size(t.triangles),
+            t.triangle_density,
+            {t.tree.empty() ? nullptr : t.tree.data(), t.first_leaf.data(), t.leaves.data(),
+             t.tree_share, t.tree_has_extended}};
 }
 
 }  // namespace trg

@@ -108,7 +108,8 @@ uint32_t FrozenScene::find_features(const Scene& scene) const {
     }
     for (const MeshAttributes& a : scene.attributes)
         if (!a.normals.empty()) features |= kSmoothNormals;
-    if (!emitters_.extended.empty() || !emitters_.triangles.empty() || emitters_.endless)
+    if (!emitters_.extended.empty() || !emitters_.triangles.empty() || emitters_.endless ||
+        emitters_.tree_has_extended)
         features |= kExtendedEmitters;
     if (!scene.tables.environment.pixels.empty()) features |= kEnvironment;
     return features;

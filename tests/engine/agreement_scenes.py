@@ -169,6 +169,45 @@ def _many_lights() -> SceneArrays:
     return studio(MATERIALS["plastic"], *bulbs)
 
 
+def _light_tree(kinds: str = "psra", subject: str = "plastic", suns: int = 0) -> SceneArrays:
+    """More emitters than are listed: points, spots, areas, glowing boxes and spheres, turned anyhow."""
+    rng = np.random.default_rng(7)
+    lamps = []
+    for number in range(48):
+        kind = kinds[number % len(kinds)]
+        at = (*rng.uniform(-2.5, 2.5, 2), rng.uniform(0.3, 3.0))
+        down = (*rng.uniform(-1, 1, 2), -rng.uniform(0.1, 1.0))
+        color = tuple(rng.random(3) * (2.0 if number % 9 else 20.0))
+        if kind == "p":
+            lamps.append(light("point", color, at, radius=0.1 * (number % 2)))
+        elif kind == "s":
+            lamps.append(light("spot", color, at, direction=down, cos_outer=0.7, cos_inner=0.9))
+        else:
+            half = np.cross(down, (1.0, 0.0, 0.0))
+            lamps.append(
+                light(
+                    "area_ellipse" if kind == "a" else "area_rectangle",
+                    color,
+                    at,
+                    direction=down,
+                    axis_u=0.2 * half,
+                    axis_v=0.2 * np.cross(half, down),
+                )
+            )
+    lamps += [light("sun", (0.3, 0.3, 0.3), direction=(0.2, 0.1 * k, 1.0), angle=0.1) for k in range(suns)]
+    return studio(MATERIALS[subject], *lamps)
+
+
+def _tree_of_triangles() -> SceneArrays:
+    scene = _glow()
+    scene.meshes[1].shape = "sphere"
+    scene.materials += [Material(0.3, 0.3, 0.3, emission_r=1, emission_g=2, emission_b=3, specular=0.0)]
+    for k in range(4):
+        scene.instances += [place(2, 3, (k - 1.5, 1.5, 0.5 + 0.4 * k), linear=np.eye(3) * 0.4)]
+    scene.lights = [light("point", (3, 2, 2), (0.9, 0.6, 1.6), radius=0.2)]
+    return scene
+
+
 def _shapes() -> SceneArrays:
     """A true plane and true spheres, one stretched and textured, one glowing, among meshes."""
     scene = studio(MATERIALS["plastic"])
@@ -222,6 +261,10 @@ GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "orthographic_clipped": _orthographic,
     "all_lights": _all_lights,
     "many_lights": _many_lights,
+    "light_tree": _light_tree,
+    "light_tree_glass_suns": lambda: _light_tree("pr", "glass_rough", 6),
+    "light_tree_deltas": lambda: _light_tree("s"),
+    "light_tree_triangles": _tree_of_triangles,
     "environment": _environment,
     "environment_and_lights": _environment_and_lights,
 }
