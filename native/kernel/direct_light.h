@@ -46,7 +46,7 @@ TRG_FN Vec3 ray_origin(const Surface& s, Vec3 ng, Vec3 wi) {
 template <uint32_t F>
 TRG_FN void queue_sample(const LightSample& sample, const Vertex& v, float share,
                          ShadowQueue* queue) {
-    const BsdfValue f = eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, sample.wi));
+    const BsdfValue f = eval_bsdf<lobes_of(F)>(v.bsdf, to_local(v.frame, sample.wi));
     const float weight =
         sample.pdf > 0.0f ? power_heuristic(share * sample.pdf, f.pdf) / share : 1.0f / share;
     const Vec3 light = v.throughput * f.f_cos * sample.light * weight;
@@ -96,7 +96,7 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v,
     const float cosine = std::fabs(dot(s.outside, wi));
     if (!(d2 > 0.0f) || !(cosine > 0.0f)) return;
     const float pdf = choice.density * s.sampling * m.emission_weight * d2 / cosine;
-    const BsdfValue f = eval_bsdf<has(F, kTransmission)>(v.bsdf, to_local(v.frame, wi));
+    const BsdfValue f = eval_bsdf<lobes_of(F)>(v.bsdf, to_local(v.frame, wi));
     const Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, s, -wi) *
                        (power_heuristic(pdf, f.pdf) / pdf);
     if (is_black(light)) return;

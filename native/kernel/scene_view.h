@@ -16,12 +16,20 @@ enum Feature : uint32_t {
     kSmoothNormals = 2,
     kTransmission = 4,
     kExtendedEmitters = 8,  // lights with extent, and surfaces that emit
+    kLayers = 16,           // coat, sheen, rough diffuse
+    kSeeThrough = 32,       // surfaces that let light straight through
     kEnvironment = 512,     // a picture of the world around
     kPrograms = 16,         // textures that are programs, and normals that they bend
 };
 
 TRG_FN constexpr bool has(uint32_t features, Feature feature) {
     return (features & feature) != 0;
+}
+
+/// The lobes that kernels of `features` know.
+TRG_FN constexpr uint32_t lobes_of(uint32_t features) {
+    return (has(features, kTransmission) ? kGlassLobe : 0u) |
+           (has(features, kLayers) ? kLayerLobes : 0u);
 }
 
 struct MeshView {
@@ -71,6 +79,7 @@ struct SceneView {
     const int64_t* first_slot;      // one an instance
     const int32_t* slot_count;      // one an instance; 0: material 0
     const Material* materials;
+    const float* energy;  // tables of the materials
     TextureSet textures;
     const TextureMesh* texture_meshes;  // one a mesh
     const float* randoms;               // one an instance, or null

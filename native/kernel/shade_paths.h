@@ -148,8 +148,9 @@ TRG_FN bool make_vertex(const SceneView& scene, Vec3 wo, Vertex* v, Vec3* normal
     *normal = bent_normal<F>(&look, *normal);
     if (!(dot(wo, *normal) > 0.0f)) return false;
     v->frame = make_frame(*normal);
-    const View view{to_local(v->frame, wo), to_local(v->frame, v->ng), facing >= 0.0f};
-    return make_bsdf<has(F, kTransmission)>(material_at<F>(&look), view, &v->bsdf);
+    const View view{to_local(v->frame, wo), to_local(v->frame, v->ng), facing >= 0.0f,
+                    scene.energy};
+    return make_bsdf<lobes_of(F)>(material_at<F>(&look), view, &v->bsdf);
 }
 
 /// Draws the next direction and keeps the path if it survives roulette.
@@ -158,7 +159,7 @@ TRG_FN void continue_path(ShadeStage& stage, const Vertex& v) {
     const Sample2 choice = sample_uniform2(v.key, v.dimension + kLobe);
     const Sample2 uv = sample_uniform2(v.key, v.dimension + kDirection);
     BsdfSample next;
-    if (!sample_bsdf<has(F, kTransmission)>(v.bsdf, choice.u, uv, &next)) return;
+    if (!sample_bsdf<lobes_of(F)>(v.bsdf, choice.u, uv, &next)) return;
     Vec3 throughput = v.throughput * next.weight;
     if (stage.depth >= kFirstRoulette) {
         const float chance = std::sqrt(max_component(throughput));

@@ -80,13 +80,15 @@ constexpr uint32_t kPlain = kSmoothNormals;
 constexpr uint32_t kLamps = kSmoothNormals | kExtendedEmitters;
 constexpr uint32_t kTextured = kLamps | kTextures;
 constexpr uint32_t kOutdoor = kTextured | kEnvironment;
-constexpr uint32_t kFull = kOutdoor | kTransmission;
+constexpr uint32_t kGlass = kOutdoor | kTransmission;
+constexpr uint32_t kFull = kGlass | kLayers | kSeeThrough;
 constexpr uint32_t kProgrammed = kFull | kPrograms;
 
 const KernelSet kSets[] = {{"plain", kPlain, render_chunk<kPlain>},
                            {"lamps", kLamps, render_chunk<kLamps>},
                            {"textured", kTextured, render_chunk<kTextured>},
                            {"outdoor", kOutdoor, render_chunk<kOutdoor>},
+                           {"glass", kGlass, render_chunk<kGlass>},
                            {"full", kFull, render_chunk<kFull>},
                            {"programmed", kProgrammed, render_chunk<kProgrammed>}};
 

@@ -2,6 +2,7 @@
 #include "base/isa.h"
 #include "base/parallel.h"
 #include "kernel/kernel_sets.h"
+#include "py/bsdf_methods.h"
 #include "py/job_object.h"
 #include "py/py_ref.h"
 #include "py/scene_object.h"
@@ -38,6 +39,11 @@ PyObject* info(PyObject*, PyObject*) {
 PyMethodDef kModuleMethods[] = {
     {"info", info, METH_NOARGS,
      "info() -> dict: compiler, instruction_set in use, compiled_sets, kernel_sets, cores"},
+    {"bsdf_eval", as_method(bsdf_eval), METH_VARARGS | METH_KEYWORDS,
+     "bsdf_eval(material, wo, wi, outside, value, pdf): see docs/architecture.md, 3.3"},
+    {"bsdf_sample", as_method(bsdf_sample), METH_VARARGS | METH_KEYWORDS,
+     "bsdf_sample(material, wo, uniforms, outside, wi, weight, pdf): see docs/architecture.md, "
+     "3.3"},
     {nullptr, nullptr, 0, nullptr}};
 
 int execute_module(PyObject* module) {

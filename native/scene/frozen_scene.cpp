@@ -33,6 +33,7 @@ FrozenScene::FrozenScene(const Scene& scene) {
     view_.first_slot = scene.first_slot.data();
     view_.slot_count = scene.slot_count.data();
     view_.materials = scene.tables.materials.data();
+    view_.energy = scene.tables.energy.values.data();
     const TextureTables& t = scene.tables.textures;
     view_.textures = {images_.data(), t.textures.data(), t.programs.data(), t.ops.data(),
                       t.constants.data()};
@@ -105,6 +106,9 @@ uint32_t FrozenScene::find_features(const Scene& scene) const {
             m.emission_texture >= 0 || m.normal_texture >= 0)
             features |= kTextures;
         if (m.transmission > 0.0f) features |= kTransmission;
+        if (m.coat > 0.0f || max_component(m.sheen) > 0.0f || m.diffuse_roughness > 0.0f)
+            features |= kLayers;
+        if (m.alpha < 1.0f || m.alpha_texture >= 0) features |= kSeeThrough;
     }
     for (const MeshAttributes& a : scene.attributes)
         if (!a.normals.empty()) features |= kSmoothNormals;

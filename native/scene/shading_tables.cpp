@@ -1,7 +1,7 @@
 #include "scene/shading_tables.h"
 
+#include "scene/prepare_material.h"
 #include "scene/table_reader.h"
-#include "shade/fresnel.h"
 
 namespace trg {
 
@@ -20,24 +20,31 @@ const std::vector<const char*> kMaterialFields = {"base_r",
                                                   "roughness_texture",
                                                   "metallic_texture",
                                                   "emission_texture",
-                                                  "normal_texture"};
+                                                  "normal_texture",
+                                                  "specular_tint_r",
+                                                  "specular_tint_g",
+                                                  "specular_tint_b",
+                                                  "metal_grazing",
+                                                  "multiscatter",
+                                                  "interface",
+                                                  "diffuse_roughness",
+                                                  "coat",
+                                                  "coat_roughness",
+                                                  "coat_ior",
+                                                  "coat_tint_r",
+                                                  "coat_tint_g",
+                                                  "coat_tint_b",
+                                                  "sheen_r",
+                                                  "sheen_g",
+                                                  "sheen_b",
+                                                  "sheen_roughness",
+                                                  "alpha",
+                                                  "through_r",
+                                                  "through_g",
+                                                  "through_b",
+                                                  "alpha_texture"};
 
 namespace {
-
-/// Each other index's mean is found once: tables often repeat one IOR.
-class MeanFresnel {
-  public:
-    float of(float ior) {
-        if (ior != last_ior_) {
-            last_ior_ = ior;
-            last_ = mean_fresnel_dielectric(ior);
-        }
-        return last_;
-    }
-
-  private:
-    float last_ior_ = 0.0f, last_ = 0.0f;
-};
 
 Vec3 next_color(TableRow& row) {
     const float r = row.next(0.0f, 3.0e38f), g = row.next(0.0f, 3.0e38f),
@@ -45,13 +52,19 @@ Vec3 next_color(TableRow& row) {
     return {r, g, b};
 }
 
-Material read_material(TableRow row, int64_t texture_count, MeanFresnel& mean) {
+Vec3 next_share_color(TableRow& row) {
+    const float r = row.next_share(), g = row.next_share(), b = row.next_share();
+    return {r, g, b};
+}
+
+/// The columns in their order.
+Material read_material(TableRow row, int64_t texture_count) {
     Material m{};
     m.base = next_color(row);
     m.metallic = row.next_share();
     m.roughness = row.next_share();
     m.ior = row.next(1e-3f, 1e6f);
-    m.specular = row.next_share();
+    m.specular = row.next(0.0f, 1e6f);
     m.transmission = row.next_share();
     m.emission = row.next_vector();
     m.emission_weight = std::fabs(luminance(m.emission));
@@ -60,7 +73,21 @@ Material read_material(TableRow row, int64_t texture_count, MeanFresnel& mean) {
     m.metallic_texture = row.next_index(-1, texture_count);
     m.emission_texture = row.next_index(-1, texture_count);
     m.normal_texture = row.next_index(-1, texture_count);
-    m.mean_fresnel = mean.of(m.ior);
+    m.specular_tint = next_color(row);
+    m.metal_grazing = row.next_share();
+    m.multiscatter = row.next_share();
+    m.interface = static_cast<Interface>(row.next_index(0, 3));
+    m.diffuse_roughness = row.next_share();
+    m.coat = row.next_share();
+    const float coat_roughness = row.next_share();
+    m.coat_alpha = coat_roughness * coat_roughness;
+    m.coat_ior = row.next(1.0f, 1e6f);
+    m.coat_tint = next_color(row);
+    m.sheen = next_color(row);
+    m.sheen_roughness = row.next_share();
+    m.alpha = row.next_share();
+    m.through = next_share_color(row);
+    m.alpha_texture = row.next_index(-1, texture_count);
     return m;
 }
 
@@ -69,12 +96,14 @@ Material read_material(TableRow row, int64_t texture_count, MeanFresnel& mean) {
 void set_materials(ShadingTables& tables, const Table& table) {
     check_columns(table, "materials", kMaterialFields);
     std::vector<Material> materials;
-    MeanFresnel mean;
-    for (int64_t row = 0; row < table.rows; ++row)
+    EnergyTables energy;
+    for (int64_t row = 0; row < table.rows; ++row) {
         materials.push_back(read_material({table, "materials", kMaterialFields, row},
-                                          static_cast<int64_t>(tables.textures.textures.size()),
-                                          mean));
+                                          static_cast<int64_t>(tables.textures.textures.size())));
+        prepare_material(&materials.back(), &energy);
+    }
     tables.materials.swap(materials);
+    tables.energy = std::move(energy);
 }
 
 void set_background(ShadingTables& tables, float r, float g, float b) {

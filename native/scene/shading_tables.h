@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernel/scene_view.h"
+#include "scene/energy_tables.h"
 #include "scene/environment.h"
 #include "scene/texture_tables.h"
 
@@ -23,6 +24,7 @@ extern const std::vector<const char*> kMaterialFields, kLightFields;
 struct ShadingTables {
     TextureTables textures;
     std::vector<Material> materials;
+    EnergyTables energy;  // of the materials
     std::vector<Light> lights;
     Vec3 background{0.0f, 0.0f, 0.0f};
     Environment environment;

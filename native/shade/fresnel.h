@@ -25,11 +25,47 @@ TRG_FN float fresnel_dielectric(float c, float eta) {
     return fresnel_dielectric(c, eta, &g);
 }
 
-/// Schlick's (1994) reflectance of a metal whose reflectance at normal incidence is `f0`.
-TRG_FN Vec3 fresnel_schlick(Vec3 f0, float c) {
+/// Reflectance at normal incidence of an index of refraction.
+TRG_FN float f0_of_ior(float ior) {
+    const float root = (ior - 1.0f) / (ior + 1.0f);
+    return root * root;
+}
+
+/// The index, not below 1, that reflects `f0` at normal incidence.
+TRG_FN float ior_of_f0(float f0) {
+    const float root = std::sqrt(f0 < 0.99f ? f0 : 0.99f);
+    return (1.0f + root) / (1.0f - root);
+}
+
+/// A metal by its colour at normal incidence and a dip towards grazing angles.
+struct MetalFresnel {
+    Vec3 f0;
+    Vec3 dip;       // subtracted as dip c (1 - c)^6
+    float grazing;  // 1: white at grazing angles, 0: f0 everywhere
+};
+
+/// Schlick's reflectance (1994), multiplied by `tint` at the cosine 1/7, about 82 degrees: F82-tint
+/// of Kutz, Hasan and Edmondson 2021, "Novel aspects of the Adobe Standard Material".
+TRG_FN MetalFresnel make_metal_fresnel(Vec3 f0, Vec3 tint, float grazing) {
+    constexpr float kFive = 0.46266436f, kSix = 0.39656944f;  // powers of 6/7
+    const Vec3 one{1.0f, 1.0f, 1.0f};
+    tint = {tint.x < 1.0f ? tint.x : 1.0f, tint.y < 1.0f ? tint.y : 1.0f,
+            tint.z < 1.0f ? tint.z : 1.0f};
+    const Vec3 schlick = f0 + (one - f0) * (kFive * grazing);
+    return {f0, schlick * (one - tint) * (7.0f / kSix), grazing};
+}
+
+TRG_FN Vec3 fresnel_metal(const MetalFresnel& metal, float c) {
     const float a = c < 1.0f ? 1.0f - c : 0.0f;
     const float a5 = a * a * a * a * a;
-    return {f0.x + (1.0f - f0.x) * a5, f0.y + (1.0f - f0.y) * a5, f0.z + (1.0f - f0.z) * a5};
+    const Vec3 one{1.0f, 1.0f, 1.0f};
+    return metal.f0 + (one - metal.f0) * (a5 * metal.grazing) - metal.dip * (c * a5 * a);
+}
+
+/// Mean of fresnel_metal over the hemisphere, weighted by the cosine.
+TRG_FN Vec3 mean_fresnel_metal(const MetalFresnel& metal) {
+    const Vec3 one{1.0f, 1.0f, 1.0f};
+    return metal.f0 + (one - metal.f0) * (metal.grazing / 21.0f) - metal.dip * (1.0f / 126.0f);
 }
 
 /// Mean of fresnel_dielectric over the hemisphere of the near side, weighted by the cosine.

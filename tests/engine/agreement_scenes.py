@@ -52,6 +52,23 @@ MATERIALS = {
     "glass_below_one": Material(1.0, 1.0, 1.0, transmission=1.0, roughness=0.3, ior=0.75),
     "mixture": Material(0.9, 0.5, 0.4, metallic=0.3, transmission=0.5, roughness=0.4, ior=1.4),
     "mixture_polished": Material(0.9, 0.5, 0.4, metallic=0.3, transmission=0.5, roughness=0.0),
+    "metal_tinted_edge": Material(
+        0.9, 0.6, 0.3, metallic=1.0, roughness=0.6, specular_tint_r=0.3, specular_tint_g=0.8
+    ),
+    "glossy": Material(0.7, 0.6, 0.3, metallic=1.0, roughness=0.7, metal_grazing=0.0),
+    "metal_single": Material(0.9, 0.6, 0.3, metallic=1.0, roughness=0.9, multiscatter=0.0),
+    "plastic_strong": Material(0.2, 0.5, 0.8, roughness=0.6, specular=2.0, specular_tint_g=0.2),
+    "clay": Material(0.8, 0.5, 0.3, specular=0.0, diffuse_roughness=0.9),
+    "coat": Material(
+        0.7, 0.2, 0.1, roughness=0.7, coat=0.8, coat_roughness=0.3, coat_ior=1.7, coat_tint_b=0.3
+    ),
+    "coat_polished": Material(0.7, 0.2, 0.1, metallic=0.5, roughness=0.4, coat=1.0, coat_roughness=0.0),
+    "sheen": Material(0.1, 0.2, 0.5, roughness=0.8, sheen_r=0.9, sheen_g=0.6, sheen_b=0.4),
+    "glass_stained": Material(0.5, 0.7, 0.9, roughness=0.4, transmission=1.0, interface=1),
+    "refraction_only": Material(0.9, 0.7, 0.9, roughness=0.3, transmission=1.0, interface=2),
+    "everything": Material(
+        0.9, 0.5, 0.4, 0.3, 0.4, 1.4, transmission=0.5, coat=0.5, coat_roughness=0.2, sheen_g=0.5
+    ),
     "glowing": Material(0.5, 0.5, 0.5, emission_r=2.0, emission_g=1.0, emission_b=0.3),
 }
 

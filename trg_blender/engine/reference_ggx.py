@@ -11,6 +11,9 @@ import numpy as np
 from .reference_math import dot, normalize
 from .scene_arrays import Float64
 
+IDEAL_ALPHA = 1e-3
+"""GGX below it is an ideal mirror."""
+
 
 def ggx_distribution(m: Float64, alpha: Float64) -> Float64:
     """Density of microfacet normals per steradian and projected area; 0 below the surface."""
@@ -38,6 +41,11 @@ def pdf_visible_normal(wo: Float64, m: Float64, alpha: Float64) -> Float64:
 
 def sample_visible_normal(rng: np.random.Generator, wo: Float64, alpha: Float64) -> Float64:
     """Microfacet normals in proportion to their area seen from `wo`."""
+    return visible_normal(wo, alpha, rng.random(len(wo)), rng.random(len(wo)))
+
+
+def visible_normal(wo: Float64, alpha: Float64, square: Float64, turn: Float64) -> Float64:
+    """The normal for two numbers in [0, 1): squared radius and turn on the disc seen from `wo`."""
     count = len(wo)
     # Stretch the view until the surface is a hemisphere.
     stretched = normalize(np.stack([alpha * wo[:, 0], alpha * wo[:, 1], wo[:, 2]], axis=1))
@@ -51,7 +59,7 @@ def sample_visible_normal(rng: np.random.Generator, wo: Float64, alpha: Float64)
     )
     t2 = np.cross(stretched, t1)
     # A point on the visible half of the disc, then up to the hemisphere.
-    radius, phi = np.sqrt(rng.random(count)), 2.0 * np.pi * rng.random(count)
+    radius, phi = np.sqrt(square), 2.0 * np.pi * turn
     p1, p2 = radius * np.cos(phi), radius * np.sin(phi)
     share = 0.5 * (1.0 + stretched[:, 2])
     p2 = (1.0 - share) * np.sqrt(np.maximum(0.0, 1.0 - p1 * p1)) + share * p2

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .reference_energy import EnergyTables
 from .reference_math import dot, normalize
+from .reference_ggx import IDEAL_ALPHA as IDEAL_ALPHA
 from .reference_scene import Hits, Triangles
 from .reference_shapes import shape_points
 from .reference_textures import Picture, look_up, prepare_image
 from .scene_arrays import MATERIAL_FIELDS, Float64, SceneArrays, pack_table
 
-IDEAL_ALPHA = 1e-3
-"""GGX below it is an ideal mirror."""
 GRAZING = 1e-4
 """A shading normal that the viewer sees at a smaller cosine gives way to the geometric one."""
 
@@ -26,6 +26,7 @@ class MaterialTable:
     columns: dict[str, Float64]
     scene: SceneArrays
     images: list[Picture]
+    energy: EnergyTables = field(default_factory=EnergyTables)
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,6 +43,13 @@ class Material:
     transmission: Float64
     emission: Float64
     """(n, 3) radiance"""
+    column: dict[str, Float64]
+    """(n,) the other columns of scene_arrays.Material"""
+    energy: EnergyTables
+
+    def color(self, name: str) -> Float64:
+        """(n, 3) of the columns `name`_r, `name`_g, `name`_b"""
+        return np.stack([self.column[f"{name}_{channel}"] for channel in "rgb"], axis=1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +99,8 @@ def evaluate_material(table: MaterialTable, index: NDArray[np.int64], uv: Float6
         column["specular"],
         column["transmission"],
         emission,
+        column,
+        table.energy,
     )
 
 

@@ -25,6 +25,8 @@ CHANNELS = ("color", "alpha", "luminance")
 LIGHT_KINDS = ("sun", "point", "spot", "area_rectangle", "area_ellipse")
 SHAPES = ("triangles", "sphere", "plane")
 """what a mesh may be: its triangles, the unit sphere round the origin, the infinite plane z = 0"""
+INTERFACES = ("clear", "stained", "refraction_only")
+"""what reflection and refraction of a transmitting material look like: docs/architecture.md, section 4"""
 CAMERA_KINDS = ("perspective", "orthographic")
 
 
@@ -131,6 +133,32 @@ class Material:
     emission_texture: int = -1
     normal_texture: int = -1
     """gives the shading normal, in the world"""
+    specular_tint_r: float = 1.0
+    specular_tint_g: float = 1.0
+    specular_tint_b: float = 1.0
+    metal_grazing: float = 1.0
+    """1: metal whitens towards grazing angles, 0: it is the base colour everywhere"""
+    multiscatter: float = 1.0
+    """1: facets pass on the light that single scattering loses between them, 0: they do not"""
+    interface: int = 0
+    """index into INTERFACES"""
+    diffuse_roughness: float = 0.0
+    coat: float = 0.0
+    coat_roughness: float = 0.03
+    coat_ior: float = 1.5
+    coat_tint_r: float = 1.0
+    coat_tint_g: float = 1.0
+    coat_tint_b: float = 1.0
+    sheen_r: float = 0.0
+    sheen_g: float = 0.0
+    sheen_b: float = 0.0
+    sheen_roughness: float = 0.5
+    alpha: float = 1.0
+    """share of the surface that is there; the rest lets light straight through, coloured by `through_*`"""
+    through_r: float = 1.0
+    through_g: float = 1.0
+    through_b: float = 1.0
+    alpha_texture: int = -1
 
 
 @dataclass(slots=True)

@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 
 import bpy
 
-from ..scene_arrays import Color, Material
+from ..scene_arrays import INTERFACES, Color, Material
 from .sockets import as_color, as_number, constant_of, feeding_socket, input_socket
 from .textures import TextureTable
 
 BLACK = Material(0.0, 0.0, 0.0, specular=0.0)
-UNUSED_WHEN_ZERO = (
-    "Subsurface Weight", "Anisotropic", "Coat Weight", "Sheen Weight", "Thin Film Thickness",
-    "Diffuse Roughness", "Thin Wall",
-)  # fmt: skip
+UNUSED_WHEN_ZERO = ("Subsurface Weight", "Anisotropic", "Thin Film Thickness", "Thin Wall")
 """Principled inputs that TRG does not render: silent while zero, named in the warning otherwise."""
 
 
@@ -109,44 +105,92 @@ class ShaderReader:
 
 def _scatters(row: Material) -> bool:
     has_base = row.base_texture >= 0 or row.base_r > 0 or row.base_g > 0 or row.base_b > 0
-    return has_base or row.specular > 0
+    has_sheen = max(row.sheen_r, row.sheen_g, row.sheen_b) > 0
+    return has_base or row.specular > 0 or row.alpha < 1 or has_sheen
 
 
 def _diffuse(reader: ShaderReader, node: bpy.types.Node) -> Material:
     base, texture = reader.color(node, "Color")
-    if reader.plain_number(node, "Roughness") > 0:
-        reader.miss(f"Roughness of node {node.name!r} (Diffuse BSDF)")
-    return Material(*base, specular=0.0, base_texture=texture)
+    roughness = _share(reader.plain_number(node, "Roughness"))
+    return Material(*base, specular=0.0, base_texture=texture, diffuse_roughness=roughness)
 
 
 def _glossy(reader: ShaderReader, node: bpy.types.Node) -> Material:
-    base, texture = reader.color(node, "Color", "Base Color")
+    """Facets that reflect the colour at every angle."""
+    base, texture = reader.color(node, "Color")
     roughness, roughness_texture = reader.number(node, "Roughness")
+    if abs(reader.plain_number(node, "Anisotropy")) > 0:
+        reader.miss(f"Anisotropy of node {node.name!r} (Glossy BSDF)")
     return Material(
-        *base, metallic=1.0, roughness=roughness, base_texture=texture, roughness_texture=roughness_texture
+        *base,
+        metallic=1.0,
+        roughness=_share(roughness),
+        base_texture=texture,
+        roughness_texture=roughness_texture,
+        metal_grazing=0.0,
+        multiscatter=_multiscatter(node),
+    )
+
+
+def _metallic(reader: ShaderReader, node: bpy.types.Node) -> Material:
+    """The F82 tint kind; a conductor given by n and k becomes the colour it has at normal incidence."""
+    roughness, roughness_texture = reader.number(node, "Roughness")
+    for name in ("Anisotropy", "Thin Film Thickness"):
+        socket = node.inputs.get(name)
+        if socket is not None and (socket.is_linked or abs(socket.default_value) > 0):
+            reader.miss(f"{name} of node {node.name!r} (Metallic BSDF)")
+    texture = -1
+    if node.fresnel_type == "PHYSICAL_CONDUCTOR":
+        n, k = (reader.color(node, name)[0] for name in ("IOR", "Extinction"))
+        base = tuple(((a - 1) ** 2 + b * b) / ((a + 1) ** 2 + b * b) for a, b in zip(n, k, strict=True))
+        tint = (1.0, 1.0, 1.0)
+        reader.miss(f"the exact Fresnel curve of node {node.name!r} (Metallic BSDF)")
+    else:
+        base, texture = reader.color(node, "Base Color")
+        tint = reader.color(node, "Edge Tint")[0]
+    return Material(
+        *base,
+        metallic=1.0,
+        roughness=_share(roughness),
+        base_texture=texture,
+        roughness_texture=roughness_texture,
+        multiscatter=_multiscatter(node),
+        specular_tint_r=tint[0],
+        specular_tint_g=tint[1],
+        specular_tint_b=tint[2],
     )
 
 
 def _glass(reader: ShaderReader, node: bpy.types.Node) -> Material:
-    """Glass BSDF tints each interface by its colour; the model by the root of the base colour."""
+    """Glass BSDF tints both ways by its colour, Refraction BSDF has one; the model takes the square."""
     base, texture = reader.color(node, "Color")
     if texture >= 0:
         reader.miss(f"a texture on Color of node {node.name!r}")
-    tint = [channel * channel for channel in base]
     roughness, roughness_texture = reader.number(node, "Roughness")
+    kind = "refraction_only" if node.type == "BSDF_REFRACTION" else "stained"
     return Material(
-        *tint,
-        roughness=roughness,
+        *(channel * channel for channel in base),
+        roughness=_share(roughness),
         ior=_safe_ior(reader.plain_number(node, "IOR")),
         transmission=1.0,
         roughness_texture=roughness_texture,
+        interface=INTERFACES.index(kind),
+        multiscatter=_multiscatter(node),
     )
 
 
 def _transparent(reader: ShaderReader, node: bpy.types.Node) -> Material:
-    """An interface of index 1 bends and reflects nothing."""
-    base, _ = reader.color(node, "Color")
-    return Material(*(channel * channel for channel in base), roughness=0.0, ior=1.0, transmission=1.0)
+    color, _ = reader.color(node, "Color")
+    red, green, blue = (_share(channel) for channel in color)
+    return replace(BLACK, alpha=0.0, through_r=red, through_g=green, through_b=blue)
+
+
+def _sheen(reader: ShaderReader, node: bpy.types.Node) -> Material:
+    if node.distribution != "MICROFIBER":
+        reader.miss(f"distribution {node.distribution} of node {node.name!r} (Sheen BSDF)")
+    color, _ = reader.color(node, "Color")
+    roughness = _share(reader.plain_number(node, "Roughness"))
+    return replace(BLACK, sheen_r=color[0], sheen_g=color[1], sheen_b=color[2], sheen_roughness=roughness)
 
 
 def _emission(reader: ShaderReader, node: bpy.types.Node) -> Material:
@@ -163,22 +207,25 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
         socket = node.inputs.get(name)
         if socket is not None and (socket.is_linked or float(socket.default_value) > 0):
             reader.miss(f"{name} of node {node.name!r} (Principled BSDF)")
-    _check_principled(reader, node)
+    if node.inputs["Normal"].is_linked:
+        reader.miss(f"Normal of node {node.name!r} (Principled BSDF)")
     base, base_texture = reader.color(node, "Base Color")
     roughness, roughness_texture = reader.number(node, "Roughness")
     metallic, metallic_texture = reader.number(node, "Metallic")
-    transmission = reader.plain_number(node, "Transmission Weight")
-    level = reader.plain_number(node, "Specular IOR Level")
-    ior, specular = _dielectric(_safe_ior(reader.plain_number(node, "IOR")), level, transmission)
     emission, emission_texture = reader.color(node, "Emission Color")
     strength = reader.plain_number(node, "Emission Strength")
-    return Material(
-        *base,
-        metallic=min(max(metallic, 0.0), 1.0),
-        roughness=min(max(roughness, 0.0), 1.0),
-        ior=ior,
-        specular=specular,
-        transmission=min(max(transmission, 0.0), 1.0),
+    alpha, alpha_texture = reader.number(node, "Alpha")
+    tint, _ = reader.color(node, "Specular Tint")
+    return replace(
+        _layers(reader, node),
+        base_r=base[0],
+        base_g=base[1],
+        base_b=base[2],
+        metallic=_share(metallic),
+        roughness=_share(roughness),
+        ior=_safe_ior(reader.plain_number(node, "IOR")),
+        specular=max(2.0 * reader.plain_number(node, "Specular IOR Level"), 0.0),
+        transmission=_share(reader.plain_number(node, "Transmission Weight")),
         emission_r=emission[0] * strength,
         emission_g=emission[1] * strength,
         emission_b=emission[2] * strength,
@@ -186,32 +233,47 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
         roughness_texture=roughness_texture,
         metallic_texture=metallic_texture,
         emission_texture=emission_texture if strength > 0 else -1,
+        specular_tint_r=max(tint[0], 0.0),
+        specular_tint_g=max(tint[1], 0.0),
+        specular_tint_b=max(tint[2], 0.0),
+        multiscatter=_multiscatter(node),
+        alpha=_share(alpha),
+        alpha_texture=alpha_texture,
     )
 
 
-def _check_principled(reader: ShaderReader, node: bpy.types.Node) -> None:
-    """Inputs whose neutral value is not zero."""
-    name = f"of node {node.name!r} (Principled BSDF)"
-    alpha = node.inputs["Alpha"]
-    if alpha.is_linked or alpha.default_value < 1:
-        reader.miss(f"Alpha {name}")
-    if node.inputs["Normal"].is_linked:
-        reader.miss(f"Normal {name}")
-    tint = input_socket(node, "Specular Tint")
-    if tint is not None and (tint.is_linked or min(tint.default_value[:3]) < 1):
-        reader.miss(f"Specular Tint {name}")
+def _layers(reader: ShaderReader, node: bpy.types.Node) -> Material:
+    """Coat, sheen and the roughness of the diffuse base of a Principled BSDF; the rest as by default."""
+    coat_tint, _ = reader.color(node, "Coat Tint")
+    sheen_tint, _ = reader.color(node, "Sheen Tint")
+    sheen = max(reader.plain_number(node, "Sheen Weight"), 0.0)
+    normal = node.inputs.get("Coat Normal")
+    if normal is not None and normal.is_linked:
+        reader.miss(f"Coat Normal of node {node.name!r} (Principled BSDF)")
+    return Material(
+        diffuse_roughness=_share(reader.plain_number(node, "Diffuse Roughness")),
+        coat=_share(reader.plain_number(node, "Coat Weight")),
+        coat_roughness=_share(reader.plain_number(node, "Coat Roughness")),
+        coat_ior=max(reader.plain_number(node, "Coat IOR"), 1.0),
+        coat_tint_r=max(coat_tint[0], 0.0),
+        coat_tint_g=max(coat_tint[1], 0.0),
+        coat_tint_b=max(coat_tint[2], 0.0),
+        sheen_r=sheen * max(sheen_tint[0], 0.0),
+        sheen_g=sheen * max(sheen_tint[1], 0.0),
+        sheen_b=sheen * max(sheen_tint[2], 0.0),
+        sheen_roughness=_share(reader.plain_number(node, "Sheen Roughness")),
+    )
 
 
-def _dielectric(ior: float, level: float, transmission: float) -> tuple[float, float]:
-    """(ior, specular): level 0.5 leaves the IOR's reflection, below it scales down.
+def _multiscatter(node: bpy.types.Node) -> float:
+    """1 for the distributions that lose no light between facets."""
+    if node.bl_idname == "ShaderNodeBsdfRefraction":
+        return 0.0
+    return 1.0 if node.distribution == "MULTI_GGX" else 0.0
 
-    Above 0.5 a scaled Fresnel term would pass one, so that the IOR with the doubled reflection at
-    normal incidence takes its place (as Cycles does), unless the IOR also bends transmitted light.
-    """
-    if level <= 0.5 or transmission > 0:
-        return ior, min(max(2.0 * level, 0.0), 1.0)
-    f0 = min(((ior - 1) / (ior + 1)) ** 2 * 2.0 * level, 0.9801)
-    return (1 + math.sqrt(f0)) / (1 - math.sqrt(f0)), 1.0
+
+def _share(value: float) -> float:
+    return min(max(value, 0.0), 1.0)
 
 
 def _safe_ior(ior: float) -> float:
@@ -222,8 +284,10 @@ _READERS: dict[str, Callable[[ShaderReader, bpy.types.Node], Material]] = {
     "BSDF_PRINCIPLED": _principled,
     "BSDF_DIFFUSE": _diffuse,
     "BSDF_GLOSSY": _glossy,
-    "BSDF_METALLIC": _glossy,
+    "BSDF_METALLIC": _metallic,
     "BSDF_GLASS": _glass,
+    "BSDF_REFRACTION": _glass,
+    "BSDF_SHEEN": _sheen,
     "BSDF_TRANSPARENT": _transparent,
     "EMISSION": _emission,
 }
