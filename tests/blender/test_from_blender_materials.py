@@ -62,11 +62,33 @@ def test_principled_row(nodes):
     assert table.warnings == []
 
 
-def test_specular_above_the_ior_raises_the_ior_instead(nodes):
-    """Reflection at normal incidence doubles; the Fresnel term stays below one."""
+def test_the_specular_level_scales_the_reflection_at_normal_incidence(nodes):
     row, _ = nodes.read(nodes.add("BsdfPrincipled", IOR=1.5, Specular_IOR_Level=1.0))
-    assert row.specular == 1.0
-    assert ((row.ior - 1) / (row.ior + 1)) ** 2 == pytest.approx(0.08)
+    assert (row.ior, row.specular) == (1.5, 2.0)
+
+
+def test_the_layers_of_principled(nodes):
+    row, table = nodes.read(
+        nodes.add(
+            "BsdfPrincipled",
+            Coat_Weight=0.5,
+            Coat_Roughness=0.2,
+            Coat_IOR=1.8,
+            Coat_Tint=(0.1, 0.2, 0.3, 1),
+            Sheen_Weight=0.5,
+            Sheen_Tint=(1.0, 0.5, 0.0, 1),
+            Sheen_Roughness=0.3,
+            Diffuse_Roughness=0.7,
+            Specular_Tint=(0.4, 0.5, 0.6, 1),
+        )
+    )
+    assert (row.coat, row.coat_roughness, row.coat_ior) == pytest.approx((0.5, 0.2, 1.8))
+    assert (row.coat_tint_r, row.coat_tint_b) == pytest.approx((0.1, 0.3))
+    assert (row.sheen_r, row.sheen_g, row.sheen_b) == pytest.approx((0.5, 0.25, 0.0))
+    assert (row.sheen_roughness, row.diffuse_roughness) == pytest.approx((0.3, 0.7))
+    assert (row.specular_tint_r, row.specular_tint_b) == pytest.approx((0.4, 0.6))
+    assert row.multiscatter == 1.0
+    assert table.warnings == []
 
 
 def test_an_empty_slot_is_grey_lambert():
@@ -107,12 +129,12 @@ def test_emission_adds_to_a_surface(nodes):
 
 
 def test_one_warning_names_everything_left_out(nodes):
-    surface = nodes.add("BsdfPrincipled", Coat_Weight=0.5, Alpha=0.5)
+    surface = nodes.add("BsdfPrincipled", Subsurface_Weight=0.5, Anisotropic=0.5)
     nodes.link(nodes.add("TexNoise"), surface, "Roughness")
     _, table = nodes.read(surface)
     (warning,) = table.warnings
     assert "material 'stuff'" in warning
-    for word in ("Coat Weight", "Alpha", "Noise Texture"):
+    for word in ("Subsurface Weight", "Anisotropic", "Noise Texture"):
         assert word in warning
 
 

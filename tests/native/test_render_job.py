@@ -47,9 +47,10 @@ GLASS = Material(0.9, 1.0, 0.9, transmission=1.0, roughness=0.6)
 
 def mixed_scene(built: bool = True) -> Any:
     """A floor, a glass and a plastic sphere, an area light and a point, seen from above."""
-    lights = [Light(RECTANGLE, 5.0, 5.0, 4.0, position_z=2.5, direction_z=-1.0, axis_u_x=0.5,
-                    axis_v_y=0.5),
-              Light(POINT, 1.0, 2.0, 3.0, position_x=1.0, position_z=2.0)]
+    lights = [
+        Light(RECTANGLE, 5.0, 5.0, 4.0, position_z=2.5, direction_z=-1.0, axis_u_x=0.5, axis_v_y=0.5),
+        Light(POINT, 1.0, 2.0, 3.0, position_x=1.0, position_z=2.0),
+    ]
     scene = new_scene([GREY, PLASTIC, GLASS], world=0.2, lights=lights)
     add_object(scene, make_floor())
     vertices, triangles = make_sphere(16)
@@ -94,8 +95,8 @@ def test_a_border_is_a_crop_bit_for_bit() -> None:
 
 def test_seeds_give_different_samples_of_the_same_picture() -> None:
     scene = mixed_scene()
-    a = film_of(scene, Settings(samples=64, seed=1))[0].sum(axis=0)
-    b = film_of(scene, Settings(samples=64, seed=2))[0].sum(axis=0)
+    a = film_of(scene, Settings(samples=256, seed=1))[0].sum(axis=0)
+    b = film_of(scene, Settings(samples=256, seed=2))[0].sum(axis=0)
     assert not np.array_equal(a, b)
     assert a.mean() == pytest.approx(b.mean(), rel=0.01)
 
@@ -289,8 +290,15 @@ def test_samples_that_are_not_finite_are_counted_and_dropped() -> None:
 
 @pytest.mark.parametrize(
     ("column", "value"),
-    [("metallic", 1.5), ("roughness", np.nan), ("ior", 0.0), ("base_r", -1.0), ("emission_g", np.inf),
-     ("base_texture", 0.0), ("specular", 2.0)],
+    [
+        ("metallic", 1.5),
+        ("roughness", np.nan),
+        ("ior", 0.0),
+        ("base_r", -1.0),
+        ("emission_g", np.inf),
+        ("base_texture", 0.0),
+        ("specular", -1.0),
+    ],
 )
 def test_an_impossible_material_is_named_by_row_and_column(column: str, value: float) -> None:
     table = pack_table([Material(), Material()], MATERIAL_FIELDS)
@@ -313,7 +321,7 @@ def test_other_impossible_input_is_a_value_error() -> None:
     scene = mixed_scene()
     with pytest.raises(ValueError, match="image"):
         scene.set_textures(pack_table([Texture(0)], TEXTURE_FIELDS))
-    with pytest.raises(ValueError, match=f"materials: expected {len(MATERIAL_FIELDS)} columns"):
+    with pytest.raises(ValueError, match="materials: expected 38 columns"):
         scene.set_materials(np.zeros((1, 3), np.float32))
     with pytest.raises(ValueError, match="pixels"):
         scene.add_image(np.zeros((2, 2, 2), np.uint8), True)

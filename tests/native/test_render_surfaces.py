@@ -87,13 +87,17 @@ def ggx_albedo(alpha: float, cosine: float) -> float:
 
 @pytest.mark.parametrize("roughness", [0.2, 0.5, 1.0])
 @pytest.mark.parametrize("cosine", [1.0, 0.5])
-def test_rough_metal_has_the_albedo_of_ggx(roughness: float, cosine: float) -> None:
-    scene = new_scene([Material(1.0, 1.0, 1.0, metallic=1.0, roughness=roughness)], world=1.0)
+@pytest.mark.parametrize("again", [0.0, 1.0])
+def test_rough_metal_has_the_albedo_of_ggx(roughness: float, cosine: float, again: float) -> None:
+    """Where facets pass light on (`again`), nothing is lost."""
+    metal = Material(1.0, 1.0, 1.0, metallic=1.0, roughness=roughness, multiscatter=again)
+    scene = new_scene([metal], world=1.0)
     add_object(scene, make_floor(100.0))
     sine = np.sqrt(1.0 - cosine**2)
     axes = np.array([[cosine, 0.0, sine], [0.0, 1.0, 0.0], [-sine, 0.0, cosine]])
     pixels = picture(scene, Settings(16, 16, samples=512), Camera(eye=(3 * sine, 0, 3 * cosine), axes=axes))
-    assert pixels[..., :3].mean() == pytest.approx(ggx_albedo(roughness**2, cosine), abs=2e-3)
+    expected = 1.0 if again else ggx_albedo(roughness**2, cosine)
+    assert pixels[..., :3].mean() == pytest.approx(expected, abs=2e-3)
 
 
 def test_a_mirror_shows_a_sun_disc_that_the_camera_cannot_see() -> None:

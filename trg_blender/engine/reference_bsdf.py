@@ -111,7 +111,9 @@ def build_bsdf(surface: Surface) -> Bsdf:
     below = np.clip(1.0 - sheen_weight.max(axis=1), 0.0, 1.0)[:, None] * np.ones((1, 3))
     coat, below = build_coat(material, cosine, below)
     metallic, passing = material.metallic[:, None], material.transmission[:, None]
-    metal = build_metal_fresnel(material.base, material.color("specular_tint"), material.column["metal_grazing"])
+    metal = build_metal_fresnel(
+        material.base, material.color("specular_tint"), material.column["metal_grazing"]
+    )
     gloss = build_gloss(material, cosine, below * (1.0 - metallic) * (1.0 - passing))
     diffuse = below * (1.0 - metallic) * (1.0 - passing) * left_below(gloss.albedo) * material.base
     metal_weight = below * metallic * facets_factor(material, cosine, metal.mean())

@@ -29,9 +29,7 @@ class EnergyTables:
 
     _rows: dict[tuple[str, float, float], Float64] = field(default_factory=dict)
 
-    def albedo(
-        self, kind: str, eta: Float64, roughness: Float64, cosine: Float64
-    ) -> tuple[Float64, Float64]:
+    def albedo(self, kind: str, eta: Float64, roughness: Float64, cosine: Float64) -> tuple[Float64, Float64]:
         """(n,) albedo at `cosine`, and its mean over the hemisphere weighted by the cosine.
 
         `facets` reflect everything, `gloss` by Fresnel's law, `glass` reflects and refracts.
@@ -51,9 +49,7 @@ class EnergyTables:
                 at[rows], mean[rows] = self._exact(kind, index, roughness[rows], cosine[rows])
         return at, mean
 
-    def _exact(
-        self, kind: str, eta: float, roughness: Float64, cosine: Float64
-    ) -> tuple[Float64, Float64]:
+    def _exact(self, kind: str, eta: float, roughness: Float64, cosine: Float64) -> tuple[Float64, Float64]:
         at, mean = np.ones(len(cosine)), np.ones(len(cosine))
         rounded = np.round(np.minimum(roughness, 1.0), 9)
         for value in np.unique(rounded):
