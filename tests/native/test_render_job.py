@@ -321,7 +321,7 @@ def test_other_impossible_input_is_a_value_error() -> None:
     scene = mixed_scene()
     with pytest.raises(ValueError, match="image"):
         scene.set_textures(pack_table([Texture(0)], TEXTURE_FIELDS))
-    with pytest.raises(ValueError, match="materials: expected 38 columns"):
+    with pytest.raises(ValueError, match=f"materials: expected {len(MATERIAL_FIELDS)} columns"):
         scene.set_materials(np.zeros((1, 3), np.float32))
     with pytest.raises(ValueError, match="pixels"):
         scene.add_image(np.zeros((2, 2, 2), np.uint8), True)

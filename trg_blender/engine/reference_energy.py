@@ -15,9 +15,9 @@ from .reference_ggx import IDEAL_ALPHA, smith_lambda, smith_shadowing, visible_n
 from .reference_math import dot
 from .scene_arrays import Float64
 
-NODES = np.linspace(0.0, 1.0, 96) ** 2
+NODES = np.linspace(0.0, 1.0, 64) ** 2
 """Cosines of the tables."""
-FINEST_STEP = 1.0 / 48.0
+FINEST_STEP = 1.0 / 32.0
 """Roughness steps of tables for surfaces whose roughness varies."""
 FEW = 12
 """Up to so many roughnesses are tabulated as they are."""
@@ -73,8 +73,8 @@ def tabulate(kind: str, eta: float, alpha: float) -> Float64:
     cosine = np.maximum(NODES, 1e-6)
     if alpha < IDEAL_ALPHA:
         return fresnel_dielectric(cosine, np.asarray(eta)) if kind == "gloss" else np.ones(len(cosine))
-    x, x_weight = (0.5 * part for part in np.polynomial.legendre.leggauss(40))
-    y, y_weight = (0.5 * part for part in np.polynomial.legendre.leggauss(32))
+    x, x_weight = (0.5 * part for part in np.polynomial.legendre.leggauss(28))
+    y, y_weight = (0.5 * part for part in np.polynomial.legendre.leggauss(20))
     x, y = x + 0.5, y + 0.5
     # Short steps towards the rim, where facets turn away; the other half of the disc mirrors this one.
     square, turn = np.meshgrid(1.0 - x**3, 0.5 * y - 0.25, indexing="ij")
