@@ -108,7 +108,7 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v,
 /// The normal of the side that light must come from to be scattered; null where it may be any.
 template <uint32_t F>
 TRG_FN Vec3 receiver_of(const Vertex& v) {
-    if (has(F, kTransmission) && v.bsdf.glass > 0.0f) return {0.0f, 0.0f, 0.0f};
+    if (has(F, kTransmission) && v.bsdf.p_glass > 0.0f) return {0.0f, 0.0f, 0.0f};
     return v.frame.n;
 }
 
