@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <stdexcept>
 
 #include "accel/soup_source.h"
 #include "base/parallel.h"
@@ -11,6 +12,8 @@ namespace trg {
 namespace {
 
 constexpr int64_t kGrain = 1 << 13;
+/// Items of a soup are numbered by 32 bits.
+constexpr int64_t kMostMerged = int64_t{1} << 30;
 
 /// References to the sound triangles, in order.
 PrimRefs gather_refs(const SoupSource& source, int threads) {
@@ -160,6 +163,12 @@ Soup build_mesh_soup(const Mesh& mesh, const SoupSettings& settings) {
 Soup build_merged_soup(const World& world, const std::vector<int32_t>& instances,
                        const SoupSettings& settings) {
     Soup soup;
+    int64_t triangles = 0;
+    for (int32_t instance : instances)
+        triangles +=
+            static_cast<int64_t>(world.meshes[world.instances[instance].mesh].triangles.size());
+    if (triangles > kMostMerged) throw std::length_error("more than 2^30 triangles at one place");
+    soup.origins.reserve(triangles);
     for (int32_t instance : instances) {
         const Mesh& mesh = world.meshes[world.instances[instance].mesh];
         for (size_t k = 0; k < mesh.triangles.size(); ++k)

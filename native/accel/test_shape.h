@@ -38,12 +38,18 @@ TRG_FN bool test_any(const Placement& placement, const TracedRay& ray, float t_m
     return (near > ray.t_min && near < t_max) || (far > ray.t_min && far < t_max);
 }
 
-/// Coordinates on the shape (geom/shapes.h) at distance `t`; of a plane they are its own x and y.
+/// `x` held within the range of floats.
+TRG_FN float finite_float(double x) {
+    constexpr double kMost = 3.4028234663852886e38;
+    return static_cast<float>(x < -kMost ? -kMost : x > kMost ? kMost : x);
+}
+
+/// Coordinates on the shape (geom/shapes.h) at distance `t`; of a plane they are its own x and y,
+/// finite however far away the point is.
 TRG_FN Barycentrics coordinates_of(const Placement& placement, const TracedRay& ray, float t) {
     const ShapeRay local = enter_shape(placement, ray);
     const Vec3d p = local.origin + local.direction * t;
-    if (placement.soup->shape == Shape::plane)
-        return {static_cast<float>(p.x), static_cast<float>(p.y)};
+    if (placement.soup->shape == Shape::plane) return {finite_float(p.x), finite_float(p.y)};
     const ShapeCoordinates at = sphere_coordinates(p);
     return {static_cast<float>(at.u), static_cast<float>(at.v)};
 }

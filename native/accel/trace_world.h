@@ -112,7 +112,9 @@ TRG_INLINE_FN ScaledRay scale_ray(Ray ray) {
     const float scale = std::ldexp(1.0f, exponent < -126 ? -126 : exponent > 126 ? 126 : exponent);
     ray.direction = {d.x / scale, d.y / scale, d.z / scale};
     ray.t_min *= scale;
-    ray.t_max *= scale;
+    // What lies too far for a float, once scaled back, is not met: by any query.
+    constexpr float kFarthest = 3.40282347e38f;
+    ray.t_max = (ray.t_max < kFarthest ? ray.t_max : kFarthest) * scale;
     return {ray, scale};
 }
 

@@ -125,6 +125,15 @@ Placement placement_of(const World& world, const WorldIndex& index, int32_t numb
     return place_soup(*index.soup_of_mesh[instance.mesh], number, instance);
 }
 
+/// Whether there is something in the box, and all of it near enough to be met: a little more than
+/// the coordinates of sound triangles are allowed. Not where a number is none.
+bool can_be_met(const Bounds& box) {
+    constexpr float kFarthest = 2e18f;
+    const Vec3 lo = box.lo, hi = box.hi;
+    return !is_empty(box) && lo.x >= -kFarthest && lo.y >= -kFarthest && lo.z >= -kFarthest &&
+           hi.x <= kFarthest && hi.y <= kFarthest && hi.z <= kFarthest;
+}
+
 /// Boxes of all that has one, by instance, and in `index.unbounded` what has none.
 PrimRefs gather_boxes(const World& world, WorldIndex& index) {
     PrimRefs refs;
@@ -138,8 +147,9 @@ PrimRefs gather_boxes(const World& world, WorldIndex& index) {
         if (!soup) continue;
         if (soup->shape == Shape::plane)
             index.unbounded.push_back(placement_of(world, index, number));
-        else if (!is_empty(soup->bounds))
-            refs.push_back(make_ref(placed_bounds(*soup, instance), number));
+        if (soup->shape == Shape::plane) continue;
+        const Bounds box = placed_bounds(*soup, instance);
+        if (can_be_met(box)) refs.push_back(make_ref(box, number));
     }
     return refs;
 }

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <exception>
 #include <mutex>
+#include <system_error>
 #include <thread>
 #include <vector>
 
@@ -34,7 +35,12 @@ void parallel_for(int64_t count, int64_t grain, int threads,
     };
 
     std::vector<std::thread> helpers;
-    for (int64_t k = 1; k < workers; ++k) helpers.emplace_back(run);
+    try {
+        helpers.reserve(workers - 1 > 0 ? workers - 1 : 0);
+        for (int64_t k = 1; k < workers; ++k) helpers.emplace_back(run);
+    } catch (const std::system_error&) {
+        // The machine gives no more threads: those that there are do all of it.
+    }
     run();
     for (std::thread& helper : helpers) helper.join();
     if (failure) std::rethrow_exception(failure);

@@ -46,6 +46,7 @@ Buffer::Buffer(PyObject* object, const char* name, std::initializer_list<int64_t
     try {
         check_type(name, type);
         check_shape(name, shape);
+        check_alignment(name, type);
     } catch (...) {
         PyBuffer_Release(&view_);
         throw;
@@ -70,6 +71,23 @@ void Buffer::check_type(const char* name, ItemType type) const {
         kind == '?' ? std::string(view_.format) : type_name(kind, view_.itemsize);
     throw ArgumentError(std::string(name) + ": expected " + type_name(type.kind, type.size) +
                         ", got " + given);
+}
+
+void Buffer::check_alignment(const char* name, ItemType type) const {
+    if (view_.len == 0 || reinterpret_cast<uintptr_t>(view_.buf) % type.size == 0) return;
+    throw ArgumentError(std::string(name) + ": expected items at multiples of their size");
+}
+
+void Buffer::expect_rows(const char* name, int64_t rows) const {
+    if (extent(0) == rows) return;
+    throw ArgumentError(std::string(name) + ": expected " + std::to_string(rows) + " rows, got " +
+                        std::to_string(extent(0)));
+}
+
+bool Buffer::overlaps(const Buffer& other) const {
+    const auto begin = reinterpret_cast<uintptr_t>(view_.buf);
+    const auto other_begin = reinterpret_cast<uintptr_t>(other.view_.buf);
+    return begin < other_begin + other.view_.len && other_begin < begin + view_.len;
 }
 
 void Buffer::check_shape(const char* name, std::initializer_list<int64_t> shape) const {

@@ -18,7 +18,7 @@ constexpr int64_t kAnyExtent = -1;
 class Buffer {
   public:
     /// `name` is the argument's name in messages; `shape` has kAnyExtent where any extent will do.
-    /// Throws ArgumentError for another type of item, shape or layout.
+    /// Throws ArgumentError for another type of item, shape, layout or alignment.
     template <class Item>
     static Buffer of(PyObject* object, const char* name, std::initializer_list<int64_t> shape,
                      Access access = Access::read) {
@@ -34,6 +34,10 @@ class Buffer {
     bool present() const { return view_.obj != nullptr; }
     int64_t extent(int dimension) const { return view_.shape[dimension]; }
     int64_t dimensions() const { return view_.ndim; }
+    /// Throws ArgumentError unless the first extent is `rows`.
+    void expect_rows(const char* name, int64_t rows) const;
+    /// Whether a byte belongs to both.
+    bool overlaps(const Buffer& other) const;
     int64_t count() const { return view_.len / view_.itemsize; }
     template <class Item>
     const Item* data() const {
@@ -58,6 +62,7 @@ class Buffer {
     static char item_kind(uint16_t) { return 'u'; }
     Buffer(PyObject* object, const char* name, std::initializer_list<int64_t> shape, ItemType type);
     void check_type(const char* name, ItemType type) const;
+    void check_alignment(const char* name, ItemType type) const;
     void check_shape(const char* name, std::initializer_list<int64_t> shape) const;
 
     Py_buffer view_{};

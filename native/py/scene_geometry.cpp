@@ -11,6 +11,9 @@ namespace trg::py {
 
 namespace {
 
+/// Of vertices, triangles, meshes, instances: they are counted by 32 bits.
+constexpr int64_t kMostItems = int64_t{1} << 30;
+
 std::vector<float> copy_floats(const Buffer& buffer) {
     if (!buffer.present()) return {};
     const float* data = buffer.data<float>();
@@ -28,7 +31,6 @@ std::string row_text(const char* name, int64_t row) {
 }
 
 Mesh copy_mesh(const Buffer& vertices, const Buffer& triangles) {
-    constexpr int64_t kMostItems = int64_t{1} << 30;
     if (vertices.extent(0) > kMostItems) throw ArgumentError("vertices: more than 2^30 rows");
     if (triangles.extent(0) > kMostItems) throw ArgumentError("triangles: more than 2^30 rows");
     Mesh mesh;
@@ -57,14 +59,26 @@ void check_slots(const std::vector<int32_t>& slots) {
                                 ", expected 0 or more");
 }
 
+/// Adds `mesh` with what belongs to it: both or, when memory ends, neither.
+PyRef keep_mesh(PyObject* self, Mesh mesh, MeshAttributes attributes) {
+    Scene& scene = scene_to_change(self);
+    if (static_cast<int64_t>(scene.world.meshes.size()) >= kMostItems)
+        throw ArgumentError("vertices: the scene has 2^30 meshes");
+    scene.attributes.push_back(std::move(attributes));
+    try {
+        return checked(PyLong_FromLong(add_mesh(scene.world, std::move(mesh))));
+    } catch (...) {
+        scene.attributes.resize(scene.world.meshes.size());
+        throw;
+    }
+}
+
 template <Shape kShape>
 PyObject* add_shape_method(PyObject* self, PyObject*) {
     return guarded_object([&] {
-        Scene& scene = scene_to_change(self);
         Mesh mesh;
         mesh.shape = kShape;
-        scene.attributes.emplace_back();
-        return checked(PyLong_FromLong(add_mesh(scene.world, std::move(mesh))));
+        return keep_mesh(self, std::move(mesh), {});
     });
 }
 
@@ -74,7 +88,7 @@ PyObject* add_mesh_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         const char* const names[] = {"vertices", "triangles", "normals", "uvs", "slots", nullptr};
         parse_arguments(args, kwargs, "OO|OOO", names, &vertices, &triangles, &normals, &uvs,
                         &slots);
-        Scene& scene = scene_to_change(self);
+        scene_to_change(self);  // refuses before anything is copied
         const Buffer points = Buffer::of<float>(vertices, "vertices", {kAnyExtent, 3});
         const Buffer indices = Buffer::of<int32_t>(triangles, "triangles", {kAnyExtent, 3});
         const int64_t count = indices.extent(0);
@@ -84,8 +98,7 @@ PyObject* add_mesh_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         attributes.uvs = copy_floats(optional_buffer<float>(uvs, "uvs", {count, 3, 2}));
         attributes.slots = copy_ints(optional_buffer<int32_t>(slots, "slots", {count}));
         check_slots(attributes.slots);
-        scene.attributes.push_back(std::move(attributes));
-        return checked(PyLong_FromLong(add_mesh(scene.world, std::move(mesh))));
+        return keep_mesh(self, std::move(mesh), std::move(attributes));
     });
 }
 
@@ -101,16 +114,27 @@ long add_request(Scene& scene, const InstanceRequest& request) {
     if (request.mesh < 0 || request.mesh >= mesh_count)
         throw ArgumentError("mesh: index " + std::to_string(request.mesh) + " of " +
                             std::to_string(mesh_count) + " meshes");
-    const int64_t first_slot = static_cast<int64_t>(scene.slot_materials.size());
-    scene.slot_materials.insert(scene.slot_materials.end(), request.slot_materials.begin(),
-                                request.slot_materials.end());
     const long first = static_cast<long>(scene.world.instances.size());
-    if (request.transforms.size() > 1)
-        scene.world.instances.reserve(first + request.transforms.size());
-    for (const Transform& transform : request.transforms) {
-        add_instance(scene.world, static_cast<int>(request.mesh), transform);
-        scene.first_slot.push_back(first_slot);
-        scene.slot_count.push_back(static_cast<int32_t>(request.slot_materials.size()));
+    const auto count = static_cast<int64_t>(request.transforms.size());
+    const auto slots = static_cast<int64_t>(request.slot_materials.size());
+    if (count > kMostItems - first || slots > kMostItems)
+        throw ArgumentError("transforms: more than 2^30 instances or slots");
+    const int64_t first_slot = static_cast<int64_t>(scene.slot_materials.size());
+    try {
+        scene.slot_materials.insert(scene.slot_materials.end(), request.slot_materials.begin(),
+                                    request.slot_materials.end());
+        scene.first_slot.resize(first + count, first_slot);
+        scene.slot_count.resize(first + count, static_cast<int32_t>(slots));
+        if (count > 1) scene.world.instances.reserve(first + count);
+        for (const Transform& transform : request.transforms)
+            add_instance(scene.world, static_cast<int>(request.mesh), transform);
+    } catch (...) {
+        // All or none, also when memory ends.
+        scene.slot_materials.resize(first_slot);
+        scene.first_slot.resize(first);
+        scene.slot_count.resize(first);
+        scene.world.instances.resize(first);
+        throw;
     }
     return first;
 }
@@ -121,14 +145,13 @@ PyObject* add_instance_method(PyObject* self, PyObject* args, PyObject* kwargs) 
         PyObject *transform = nullptr, *slot_materials = nullptr;
         const char* const names[] = {"mesh", "transform", "slot_materials", nullptr};
         parse_arguments(args, kwargs, "l|OO", names, &request.mesh, &transform, &slot_materials);
-        Scene& scene = scene_to_change(self);
         const Buffer rows = optional_buffer<float>(transform, "transform", {3, 4});
         request.transforms.push_back(rows.present()
                                          ? checked_transform(rows.data<float>(), "transform", 0)
                                          : identity_transform());
         request.slot_materials =
             copy_ints(optional_buffer<int32_t>(slot_materials, "slot_materials", {kAnyExtent}));
-        return checked(PyLong_FromLong(add_request(scene, request)));
+        return checked(PyLong_FromLong(add_request(scene_to_change(self), request)));
     });
 }
 
@@ -138,7 +161,6 @@ PyObject* add_instances_method(PyObject* self, PyObject* args, PyObject* kwargs)
         PyObject *transforms = nullptr, *slot_materials = nullptr;
         const char* const names[] = {"mesh", "transforms", "slot_materials", nullptr};
         parse_arguments(args, kwargs, "lO|O", names, &request.mesh, &transforms, &slot_materials);
-        Scene& scene = scene_to_change(self);
         const Buffer rows = Buffer::of<float>(transforms, "transforms", {kAnyExtent, 3, 4});
         request.transforms.reserve(rows.extent(0));
         for (int64_t row = 0; row < rows.extent(0); ++row)
@@ -146,7 +168,7 @@ PyObject* add_instances_method(PyObject* self, PyObject* args, PyObject* kwargs)
                 checked_transform(rows.data<float>() + 12 * row, "transforms", row));
         request.slot_materials =
             copy_ints(optional_buffer<int32_t>(slot_materials, "slot_materials", {kAnyExtent}));
-        return checked(PyLong_FromLong(add_request(scene, request)));
+        return checked(PyLong_FromLong(add_request(scene_to_change(self), request)));
     });
 }
 
@@ -156,6 +178,8 @@ PyObject* build_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         double rays = 0;
         const char* const names[] = {"threads", "rays", nullptr};
         parse_arguments(args, kwargs, "|id", names, &threads, &rays);
+        check_threads(threads);
+        if (!(rays >= 0)) throw ArgumentError("rays: expected a number from 0 on");
         Scene& scene = scene_to_change(self);
         BuildStats stats;
         {

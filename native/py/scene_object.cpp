@@ -97,6 +97,13 @@ Scene& scene_to_change(PyObject* self) {
     return *as_scene(self)->scene;
 }
 
+void check_threads(int threads) {
+    constexpr int kMostThreads = 4096;
+    if (threads < 0 || threads > kMostThreads)
+        throw ArgumentError("threads: expected 0 to " + std::to_string(kMostThreads) + ", got " +
+                            std::to_string(threads));
+}
+
 SceneUse::SceneUse(PyObject* self) : object_(as_scene(self)) {
     if (object_->changing) throw StateError("the scene is being built");
     if (!object_->scene->world.index) throw StateError("the scene must be built first: call build");

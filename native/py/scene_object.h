@@ -15,8 +15,12 @@ struct SceneObject {
 /// Methods of Scene that belong to rendering (scene_render_methods.cpp); ends with a null name.
 extern PyMethodDef kSceneRenderMethods[];
 
-/// The scene for a change. Throws StateError while a query or job reads it.
+/// The scene for a change. Throws StateError while a query or job reads it. Arguments are taken
+/// before: an object that gives a buffer may be written in Python and use the scene itself.
 Scene& scene_to_change(PyObject* self);
+
+/// Throws ArgumentError unless `threads` is 0 (all cores) to 4096.
+void check_threads(int threads);
 
 /// Keeps a scene alive and unchanged while it lives; made and destroyed under the GIL.
 /// Throws StateError when `self` was not built since its last change of geometry.

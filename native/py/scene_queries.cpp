@@ -52,6 +52,18 @@ HitArrays take_hits(PyObject* const objects[5], int64_t count) {
     return hits;
 }
 
+/// Throws ArgumentError when what is written shares memory with anything else of the query.
+void refuse_overlap(std::initializer_list<const Buffer*> outputs, const RayArrays& rays) {
+    for (const Buffer* const* out = outputs.begin(); out != outputs.end(); ++out) {
+        bool shared = false;
+        for (const Buffer* in : {&rays.origins, &rays.directions, &rays.t_min, &rays.t_max})
+            shared = shared || (*out)->overlaps(*in);
+        for (const Buffer* const* other = outputs.begin(); other != out; ++other)
+            shared = shared || (*out)->overlaps(**other);
+        if (shared) throw ArgumentError("output arrays: expected memory that nothing else uses");
+    }
+}
+
 void scatter_hits(const Hit* hits, int64_t begin, int count, HitArrays& arrays) {
     for (int k = 0; k < count; ++k) {
         arrays.t.mutable_data<float>()[begin + k] = hits[k].t;
@@ -81,9 +93,12 @@ PyObject* intersect_method(PyObject* self, PyObject* args, PyObject* kwargs) {
                                      "v",       "triangle",   "instance", "threads", nullptr};
         parse_arguments(args, kwargs, "OOOOOOOOO|i", names, &in[0], &in[1], &in[2], &in[3], &out[0],
                         &out[1], &out[2], &out[3], &out[4], &threads);
+        check_threads(threads);
         const SceneUse use(self);
         const RayArrays arrays = take_rays(in);
         HitArrays results = take_hits(out, arrays.count());
+        refuse_overlap({&results.t, &results.u, &results.v, &results.triangle, &results.instance},
+                       arrays);
         for_each_chunk(arrays.count(), threads, [&](int64_t begin, int count) {
             Ray rays[kChunk];
             Hit hits[kChunk];
@@ -103,9 +118,11 @@ PyObject* occluded_method(PyObject* self, PyObject* args, PyObject* kwargs) {
                                      "out",     "threads",    nullptr};
         parse_arguments(args, kwargs, "OOOOO|i", names, &in[0], &in[1], &in[2], &in[3], &out,
                         &threads);
+        check_threads(threads);
         const SceneUse use(self);
         const RayArrays arrays = take_rays(in);
         Buffer hidden = Buffer::of<uint8_t>(out, "out", {arrays.count()}, Access::write);
+        refuse_overlap({&hidden}, arrays);
         for_each_chunk(arrays.count(), threads, [&](int64_t begin, int count) {
             Ray rays[kChunk];
             gather_rays(arrays, begin, count, rays);

@@ -11,6 +11,8 @@ namespace trg::py {
 namespace {
 
 constexpr int64_t kLargestSide = 1 << 20;
+/// Of a film; its tiles are counted by 32 bits.
+constexpr int64_t kMostPixels = 1 << 30;
 
 /// The packed table in `object`; `hold` keeps its memory.
 Table take_table(PyObject* object, const char* name, Buffer* hold) {
@@ -23,7 +25,8 @@ template <void (*kSet)(ShadingTables&, const Table&)>
 PyObject* set_table_method(PyObject* self, PyObject* table) {
     return guarded_object([&] {
         Buffer hold;
-        kSet(scene_to_change(self).tables, take_table(table, "table", &hold));
+        const Table rows = take_table(table, "table", &hold);
+        kSet(scene_to_change(self).tables, rows);
         return none();
     });
 }
@@ -104,17 +107,25 @@ FilmPasses parse_passes(PyObject* names) {
     return passes;
 }
 
+PixelRect checked_rect(const PixelRect& rect, int width, int height) {
+    if (rect.x_min < 0 || rect.y_min < 0 || rect.x_max > width || rect.y_max > height ||
+        rect.x_min >= rect.x_max || rect.y_min >= rect.y_max)
+        throw ArgumentError("border: empty or outside the picture");
+    const int64_t pixels = int64_t{rect.x_max - rect.x_min} * (rect.y_max - rect.y_min);
+    if (pixels > kMostPixels)
+        throw ArgumentError("width, height: more than " + std::to_string(kMostPixels) +
+                            " pixels at once");
+    return rect;
+}
+
 PixelRect parse_border(PyObject* border, int width, int height) {
     PixelRect rect{0, 0, width, height};
-    if (!border || border == Py_None) return rect;
+    if (!border || border == Py_None) return checked_rect(rect, width, height);
     const PyRef sides = checked(PySequence_Tuple(border));
     if (!PyArg_ParseTuple(sides.get(), "iiii;border: expected (x_min, y_min, x_max, y_max)",
                           &rect.x_min, &rect.y_min, &rect.x_max, &rect.y_max))
         throw PythonError{};
-    if (rect.x_min < 0 || rect.y_min < 0 || rect.x_max > width || rect.y_max > height ||
-        rect.x_min >= rect.x_max || rect.y_min >= rect.y_max)
-        throw ArgumentError("border: empty or outside the picture");
-    return rect;
+    return checked_rect(rect, width, height);
 }
 
 void check_request(const RenderRequest& request) {
@@ -129,8 +140,7 @@ void check_request(const RenderRequest& request) {
         throw ArgumentError("seconds: expected 0 (no limit) to 1e9");
     if (!(request.rmse >= 0.0 && request.rmse <= 1e30))
         throw ArgumentError("rmse: expected 0 (no such stop) or more");
-    if (request.threads < 0 || request.threads > 4096)
-        throw ArgumentError("threads: expected 0 to 4096");
+    check_threads(request.threads);
 }
 
 PyObject* start_render_method(PyObject* self, PyObject* args, PyObject* kwargs) {

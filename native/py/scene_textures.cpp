@@ -17,7 +17,6 @@ PyObject* add_image_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         int srgb = 1;
         const char* const names[] = {"pixels", "srgb", nullptr};
         parse_arguments(args, kwargs, "O|p", names, &pixels, &srgb);
-        Scene& scene = scene_to_change(self);
         Image image{};
         image.srgb = srgb != 0;
         if (has_item_type(pixels, 'u', 1))
@@ -26,7 +25,8 @@ PyObject* add_image_method(PyObject* self, PyObject* args, PyObject* kwargs) {
             copy_pixels(pixels, &image, &image.halves);
         else
             copy_pixels(pixels, &image, &image.floats);
-        return checked(PyLong_FromLong(add_image(scene.tables.textures, std::move(image))));
+        TextureTables& textures = scene_to_change(self).tables.textures;
+        return checked(PyLong_FromLong(add_image(textures, std::move(image))));
     });
 }
 
@@ -67,10 +67,11 @@ PyObject* set_attribute_method(PyObject* self, PyObject* args, PyObject* kwargs)
         PyObject* values;
         const char* const names[] = {"mesh", "number", "values", nullptr};
         parse_arguments(args, kwargs, "llO", names, &mesh, &number, &values);
+        const Buffer rows = Buffer::of<float>(values, "values", {kAnyExtent, 3, kAnyExtent});
         Scene& scene = scene_to_change(self);
         MeshAttributes& attributes = mesh_to_change(scene, mesh);
         const auto count = static_cast<int64_t>(scene.world.meshes[mesh].triangles.size());
-        const Buffer rows = Buffer::of<float>(values, "values", {count, 3, kAnyExtent});
+        rows.expect_rows("values", count);
         if (number < 1 || number >= kMostAttributes)
             throw ArgumentError("number: expected 1 to " + std::to_string(kMostAttributes - 1));
         if (rows.extent(2) < 1 || rows.extent(2) > 4)
@@ -102,9 +103,9 @@ PyObject* set_texture_space_method(PyObject* self, PyObject* args, PyObject* kwa
 
 PyObject* set_randoms_method(PyObject* self, PyObject* values) {
     return guarded_object([&] {
+        const Buffer rows = Buffer::of<float>(values, "values", {kAnyExtent});
         Scene& scene = scene_to_change(self);
-        const auto count = static_cast<int64_t>(scene.world.instances.size());
-        const Buffer rows = Buffer::of<float>(values, "values", {count});
+        rows.expect_rows("values", static_cast<int64_t>(scene.world.instances.size()));
         scene.randoms.assign(rows.data<float>(), rows.data<float>() + rows.count());
         return none();
     });

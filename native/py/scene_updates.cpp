@@ -21,6 +21,17 @@ PyObject* stats_dict(const UpdateStats& stats) {
                          stats.rebuilt ? Py_True : Py_False, "growth", stats.growth);
 }
 
+/// What `update` gives; when it fails, the scene must be built before it can be queried again.
+template <class Update>
+UpdateStats all_or_unbuilt(Scene& scene, Update update) {
+    try {
+        return update();
+    } catch (...) {
+        scene.world.index.reset();
+        throw;
+    }
+}
+
 PyObject* update_transforms_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         long long first;
@@ -28,8 +39,9 @@ PyObject* update_transforms_method(PyObject* self, PyObject* args, PyObject* kwa
         int threads = 0;
         const char* const names[] = {"first", "transforms", "threads", nullptr};
         parse_arguments(args, kwargs, "LO|i", names, &first, &transforms, &threads);
-        Scene& scene = built_scene(self);
+        check_threads(threads);
         const Buffer rows = Buffer::of<float>(transforms, "transforms", {kAnyExtent, 3, 4});
+        Scene& scene = built_scene(self);
         const auto count = static_cast<long long>(scene.world.instances.size());
         if (first < 0 || first > count || rows.extent(0) > count - first)
             throw ArgumentError("transforms: " + std::to_string(rows.extent(0)) + " rows from " +
@@ -42,7 +54,9 @@ PyObject* update_transforms_method(PyObject* self, PyObject* args, PyObject* kwa
         {
             const SceneChange change(self);
             const WithoutGil unlocked;
-            stats = move_instances(scene.world, static_cast<int>(first), places, threads);
+            stats = all_or_unbuilt(scene, [&] {
+                return move_instances(scene.world, static_cast<int>(first), places, threads);
+            });
         }
         return checked(stats_dict(stats));
     });
@@ -55,16 +69,17 @@ PyObject* update_vertices_method(PyObject* self, PyObject* args, PyObject* kwarg
         int threads = 0;
         const char* const names[] = {"mesh", "vertices", "normals", "threads", nullptr};
         parse_arguments(args, kwargs, "LO|Oi", names, &mesh, &vertices, &normals, &threads);
+        check_threads(threads);
+        const Buffer points = Buffer::of<float>(vertices, "vertices", {kAnyExtent, 3});
+        const Buffer corners = optional_buffer<float>(normals, "normals", {kAnyExtent, 3, 3});
         Scene& scene = built_scene(self);
         if (mesh < 0 || mesh >= static_cast<long long>(scene.world.meshes.size()))
             throw ArgumentError("mesh: index " + std::to_string(mesh) + " of " +
                                 std::to_string(scene.world.meshes.size()) + " meshes");
         const Mesh& old = scene.world.meshes[mesh];
-        const Buffer points =
-            Buffer::of<float>(vertices, "vertices", {static_cast<int64_t>(old.vertices.size()), 3});
-        const auto count = static_cast<int64_t>(old.triangles.size());
-        if (normals && normals != Py_None) {
-            const Buffer corners = Buffer::of<float>(normals, "normals", {count, 3, 3});
+        points.expect_rows("vertices", static_cast<int64_t>(old.vertices.size()));
+        if (corners.present()) {
+            corners.expect_rows("normals", static_cast<int64_t>(old.triangles.size()));
             scene.attributes[mesh].normals.assign(corners.data<float>(),
                                                   corners.data<float>() + corners.count());
         }
@@ -75,7 +90,10 @@ PyObject* update_vertices_method(PyObject* self, PyObject* args, PyObject* kwarg
         {
             const SceneChange change(self);
             const WithoutGil unlocked;
-            stats = move_vertices(scene.world, static_cast<int>(mesh), std::move(moved), threads);
+            stats = all_or_unbuilt(scene, [&] {
+                return move_vertices(scene.world, static_cast<int>(mesh), std::move(moved),
+                                     threads);
+            });
         }
         return checked(stats_dict(stats));
     });

@@ -16,6 +16,9 @@ const Item* data_or_null(const std::vector<Item>& items) {
 FrozenScene::FrozenScene(const Scene& scene) {
     if (!scene.tables.has_camera) throw TableError("camera: call set_camera before start_render");
     check_materials(scene);
+    if (!scene.randoms.empty() && scene.randoms.size() != scene.world.instances.size())
+        throw TableError("randoms: " + std::to_string(scene.randoms.size()) + " numbers, " +
+                         std::to_string(scene.world.instances.size()) + " instances");
     for (size_t k = 0; k < scene.world.meshes.size(); ++k) {
         const Mesh& mesh = scene.world.meshes[k];
         const MeshAttributes& a = scene.attributes[k];

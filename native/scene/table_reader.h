@@ -30,7 +30,8 @@ class TableRow {
     /// An index below `count`, or from `low` on.
     int32_t next_index(int32_t low, int64_t count) {
         const float value = next(static_cast<float>(low), static_cast<float>(count - 1));
-        if (value != std::floor(value)) {
+        // A float beyond 2^24 may have been rounded up to `count`.
+        if (value != std::floor(value) || static_cast<int64_t>(value) >= count) {
             --column_;
             fail(value, static_cast<float>(low), static_cast<float>(count - 1));
         }

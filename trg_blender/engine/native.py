@@ -206,7 +206,8 @@ def _contiguous(
     if isinstance(values, np.ndarray) and array.dtype != dtype:
         raise ValueError(f"{name}: expected {np.dtype(dtype).name}, got {array.dtype.name}")
     try:
-        return np.ascontiguousarray(array, dtype=dtype)
+        rows = np.ascontiguousarray(array, dtype=dtype)
+        return rows if rows.flags.aligned else rows.copy()
     except (TypeError, ValueError) as error:
         raise ValueError(f"{name}: expected {np.dtype(dtype).name} numbers ({error})") from error
 
@@ -232,4 +233,4 @@ def _limits(name: str, values: ArrayLike, count: int) -> Float32:
         return np.full(count, array, dtype=np.float32)
     if array.shape != (count,):
         raise ValueError(f"{name}: expected shape ({count},), got {array.shape}")
-    return np.ascontiguousarray(array)
+    return _contiguous(name, array, np.float32)
