@@ -54,6 +54,17 @@ TRG_FN TracedRay enter_placement(const Placement& placement, const TracedRay& ra
                        to_float(vector_into(placement.into, ray.direction_d)), ray.t_min);
 }
 
+/// False where a placement is so small or far that the ray's numbers there are none: empty lanes of
+/// a node would seem to be met.
+TRG_FN bool is_representable(const TracedRay& local) {
+    float zero = 0;
+    for (int axis = 0; axis < 3; ++axis)
+        zero += local.origin[axis] * 0.0f + local.direction[axis] * 0.0f;
+    const bool directed =
+        (local.direction[0] != 0) | (local.direction[1] != 0) | (local.direction[2] != 0);
+    return (zero == 0) & directed;
+}
+
 template <class Block>
 TRG_FN void search_placement(const Placement& placement, const TracedRay& ray, Search& search) {
     search.current = &placement;
@@ -61,8 +72,8 @@ TRG_FN void search_placement(const Placement& placement, const TracedRay& ray, S
         test_closest(placement, ray, search);
     else if (placement.identity)
         search_soup<Block>(*placement.soup, ray, search);
-    else
-        search_soup<Block>(*placement.soup, enter_placement(placement, ray), search);
+    else if (const TracedRay local = enter_placement(placement, ray); is_representable(local))
+        search_soup<Block>(*placement.soup, local, search);
 }
 
 template <class Block>
@@ -80,7 +91,8 @@ template <class Block>
 TRG_FN bool placement_hides(const Placement& placement, const TracedRay& ray, float t_max) {
     if (placement.soup->shape != Shape::triangles) return test_any(placement, ray, t_max);
     if (placement.identity) return soup_hides<Block>(*placement.soup, ray, t_max);
-    return soup_hides<Block>(*placement.soup, enter_placement(placement, ray), t_max);
+    const TracedRay local = enter_placement(placement, ray);
+    return is_representable(local) && soup_hides<Block>(*placement.soup, local, t_max);
 }
 
 template <class Block>
