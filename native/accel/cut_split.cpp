@@ -11,7 +11,7 @@ namespace trg {
 
 namespace {
 
-constexpr int kCutBins = 16;
+constexpr int kCutBins = 8;
 constexpr int64_t kGrain = 1 << 13;
 /// Axes along which a range is shorter than this share of the longest are not cut.
 constexpr double kLeastExtent = 0.1;
@@ -318,6 +318,7 @@ bool cut_range(PrimRef* refs, const PrimRange& range, const SplitSettings& setti
     if (choice.left_count == 0) return false;
 
     CutHalves parts;
+    for (PrimRefs& half : parts.refs) half.reserve(range.end - range.begin);
     for (int64_t k = range.begin; k < range.end; ++k) sort_ref(refs[k], settings, choice, parts);
     // Slabs have counted as well as floats go.
     const int64_t items = range.end - range.begin;
