@@ -18,6 +18,7 @@ import sys
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -112,8 +113,8 @@ def report_triangles(arguments: argparse.Namespace) -> None:
                 continue
             results, times = empty_results(len(rays.origins)), []
             for _ in range(arguments.rounds + 1):
-                ours = seconds_of(lambda r=rays, x=results: trace_native(scene, r, x))
-                theirs = seconds_of(lambda r=rays, x=results: peer.trace(r, x, robust, 1))
+                ours = seconds_of(partial(trace_native, scene, rays, results))
+                theirs = seconds_of(partial(peer.trace, rays, results, robust, 1))
                 times.append((ours, theirs))
             ours_ns, theirs_ns = np.median(times[1:], axis=0) * 1e9 / len(rays.origins)
             ratio = spread_of([theirs / ours for ours, theirs in times[1:]])
@@ -144,7 +145,7 @@ def build_instances(threads: int) -> dict[str, float]:
     del turns, places
     before = status_mb("VmRSS")
     Path("/proc/self/clear_refs").write_text("5")
-    seconds = seconds_of(lambda: scene.build(threads))
+    seconds = seconds_of(partial(scene.build, threads))
     return {"seconds": seconds, "peak": status_mb("VmHWM") - before, "kept": status_mb("VmRSS") - before}
 
 
@@ -155,7 +156,8 @@ def report_instances(arguments: argparse.Namespace) -> None:
         found = []
         for _ in range(arguments.rounds):
             command = [sys.executable, "-m", "benchmarks.scaling", "--instances-child", str(threads)]
-            found.append(json.loads(subprocess.run(command, check=True, capture_output=True, cwd=ROOT).stdout))
+            run = subprocess.run(command, check=True, capture_output=True, cwd=ROOT)
+            found.append(json.loads(run.stdout))
         time_s, peak, kept = (spread_of([f[key] for f in found]) for key in ("seconds", "peak", "kept"))
         say(f"  {thread_words(threads)}: {time_s} s, peak +{peak} MB, kept +{kept} MB")
 
@@ -170,9 +172,8 @@ def report_paper(arguments: argparse.Namespace) -> None:
     for kind, rays in rays_of(mesh, scenes["bvh"], PAPER_RAYS).items():
         results, times = empty_results(len(rays.origins)), []
         for _ in range(arguments.rounds + 1):
-            times.append(
-                [seconds_of(lambda s=s, r=rays, x=results: trace_native(s, r, x)) for s in scenes.values()]
-            )
+            traces = [partial(trace_native, scene, rays, results) for scene in scenes.values()]
+            times.append([seconds_of(trace) for trace in traces])
         pairs = ((0, 1), (0, 2), (1, 2))
         say(f"  {kind:9}" + "  ".join(str(spread_of([t[a] / t[b] for t in times[1:]])) for a, b in pairs))
 
@@ -233,7 +234,8 @@ def main() -> None:
     parser.add_argument("--instances-child", type=int, help=argparse.SUPPRESS)
     arguments = parser.parse_args()
     if arguments.instances_child is not None:
-        return say(json.dumps(build_instances(arguments.instances_child)))
+        say(json.dumps(build_instances(arguments.instances_child)))
+        return
     for part in arguments.parts:
         REPORTS[part](arguments)
 

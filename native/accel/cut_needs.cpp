@@ -13,7 +13,7 @@ namespace {
 constexpr int64_t kGrain = 1 << 13;
 constexpr double kBudget = 0.25;                    // cuts per reference
 constexpr double kLeastGain = 0.25;                 // of the area of all boxes
-constexpr double kHopelessGain = 0.5 * kLeastGain;  // of a sample: the rest is not looked at
+constexpr double kHopelessGain = 0.8 * kLeastGain;  // of a sample: the rest is not looked at
 constexpr size_t kLeastSampled = 1 << 14;
 constexpr int64_t kSampleStride = 16;
 constexpr double kMostOfOne = 0.01;  // of it that one triangle counts for
