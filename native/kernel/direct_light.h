@@ -37,6 +37,18 @@ TRG_FN Vec3 eval_emission(const SceneView& scene, const Surface& s, Vec3 wo) {
     return m.emission;
 }
 
+/// How much of the surface `s` is there.
+template <uint32_t F>
+TRG_FN float alpha_of(const SceneView& scene, const Surface& s, Vec3 wo) {
+    const Material& m = scene.materials[s.material];
+    if constexpr (has(F, kTextures))
+        if (m.alpha_texture >= 0) {
+            LookUp look{scene, s, wo, false, {}};
+            return clamp01(look_up<F>(&look, m.alpha_texture).x);
+        }
+    return m.alpha;
+}
+
 /// Where a ray that leaves `s` along `wi` starts.
 TRG_FN Vec3 ray_origin(const Surface& s, Vec3 ng, Vec3 wi) {
     return leave_surface(s, dot(ng, wi) > 0.0f ? ng : -ng);
@@ -97,8 +109,9 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v,
     if (!(d2 > 0.0f) || !(cosine > 0.0f)) return;
     const float pdf = choice.density * s.sampling * m.emission_weight * d2 / cosine;
     const BsdfValue f = eval_bsdf<lobes_of(F)>(v.bsdf, to_local(v.frame, wi));
-    const Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, s, -wi) *
-                       (power_heuristic(pdf, f.pdf) / pdf);
+    float scale = power_heuristic(pdf, f.pdf) / pdf;
+    if constexpr (has(F, kSeeThrough)) scale *= alpha_of<F>(scene, s, -wi);
+    const Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, s, -wi) * scale;
     if (is_black(light)) return;
     const Vec3 origin = ray_origin(v.surface, v.ng, wi);
     queue->rays[queue->count] = {origin, 0.0f, target - origin, 1.0f};

@@ -80,6 +80,7 @@ struct SceneView {
     const int32_t* slot_count;      // one an instance; 0: material 0
     const Material* materials;
     const float* energy;  // tables of the materials
+    bool see_through;     // some material lets rays straight through
     TextureSet textures;
     const TextureMesh* texture_meshes;  // one a mesh
     const float* randoms;               // one an instance, or null

@@ -1,7 +1,7 @@
 #include "kernel/wavefront.h"
 
 #include "kernel/camera.h"
-#include "kernel/shade_paths.h"
+#include "kernel/see_through.h"
 
 namespace trg {
 namespace TRG_ISA {
@@ -15,6 +15,27 @@ void accumulate_light(PathQueues& queues, int32_t count) {
         PathResult& result = queues.results[queues.shadows[i].path];
         result.radiance = result.radiance + queues.shadows[i].light;
     }
+}
+
+/// Finds where all paths go on to, and which shadow rays are stopped.
+template <uint32_t F>
+void trace_paths(const SceneView& scene, PathQueues& queues, int32_t living, int32_t depth) {
+    intersect_closest(*scene.world, queues.rays, queues.hits, living);
+    if constexpr (has(F, kSeeThrough))
+        for (int32_t slot = 0; scene.see_through && slot < living; ++slot)
+            pass_sheets<F>(scene, queues, slot, depth);
+}
+template <uint32_t F>
+void trace_shadows(const SceneView& scene, PathQueues& queues, int32_t count) {
+    if constexpr (has(F, kSeeThrough)) {
+        if (scene.see_through) {
+            for (int32_t i = 0; i < count; ++i)
+                queues.hidden[i] =
+                    dim_shadow<F>(scene, queues.shadow_rays[i], &queues.shadows[i]) ? 1 : 0;
+            return;
+        }
+    }
+    intersect_any(*scene.world, queues.shadow_rays, queues.hidden, count);
 }
 
 /// True when rays after the last scattering could still find light.
@@ -52,7 +73,6 @@ void shade_all(ShadeStage& stage, int32_t living) {
 template <uint32_t F>
 bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues,
                   const std::atomic<bool>& cancelled, RayCounts* counts) {
-    const World& world = *view.scene.world;
     int32_t living = generate_paths(view, chunk, queues);
     counts->camera += living;
     for (int32_t depth = 0; living > 0; ++depth) {
@@ -62,12 +82,12 @@ bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues
             finish_in_background<F>(view, queues, living);
             return true;
         }
-        intersect_closest(world, queues.rays, queues.hits, living);
+        trace_paths<F>(view.scene, queues, living, depth);
         ShadeStage stage{view, queues, depth, {queues.shadow_rays, queues.shadows, 0}, 0};
         shade_all<F>(stage, living);
         if (stage.shadows.count > 0) {
             counts->shadow += stage.shadows.count;
-            intersect_any(world, queues.shadow_rays, queues.hidden, stage.shadows.count);
+            trace_shadows<F>(view.scene, queues, stage.shadows.count);
             accumulate_light(queues, stage.shadows.count);
         }
         living = stage.next_count;

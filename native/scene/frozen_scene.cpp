@@ -48,6 +48,7 @@ FrozenScene::FrozenScene(const Scene& scene) {
     view_.environment = view_environment(scene.tables.environment);
     view_.camera = scene.tables.camera;
     features_ = find_features(scene);
+    view_.see_through = (features_ & kSeeThrough) != 0;
 }
 
 void FrozenScene::check_materials(const Scene& scene) const {

@@ -104,7 +104,7 @@ def test_an_empty_slot_is_grey_lambert():
         ("BsdfGlossy", {"Roughness": 0.3}, {"metallic": 1.0, "roughness": 0.3}),
         ("BsdfGlass", {"IOR": 1.3, "Color": (0.5, 1, 1, 1)}, {"transmission": 1, "ior": 1.3, "base_r": 0.25}),
         ("Emission", {"Strength": 3.0}, {"emission_r": 3.0, "base_r": 0.0, "specular": 0.0}),
-        ("BsdfTransparent", {}, {"transmission": 1.0, "ior": 1.0, "roughness": 0.0}),
+        ("BsdfTransparent", {"Color": (1, 0.5, 0.25, 1)}, {"alpha": 0.0, "through_g": 0.5, "base_r": 0.0}),
     ],
 )
 def test_simple_shaders(nodes, kind, inputs, expected):

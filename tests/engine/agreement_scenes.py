@@ -69,6 +69,9 @@ MATERIALS = {
     "everything": Material(
         0.9, 0.5, 0.4, 0.3, 0.4, 1.4, transmission=0.5, coat=0.5, coat_roughness=0.2, sheen_g=0.5
     ),
+    "half_there": Material(0.9, 0.5, 0.4, alpha=0.4, through_g=0.6, emission_r=0.5),
+    "half_there_glass": Material(0.9, 0.5, 0.9, transmission=1.0, roughness=0.2, alpha=0.7),
+    "not_there": Material(0.9, 0.5, 0.4, alpha=0.0, through_r=0.7),
     "glowing": Material(0.5, 0.5, 0.5, emission_r=2.0, emission_g=1.0, emission_b=0.3),
 }
 

@@ -54,7 +54,8 @@ def sample_glow(
     wi = offset / np.maximum(distance, 1e-300)[:, None]
     pdf = pdf_glow(glow, triangles, index, wi, distance)
     material = evaluate_material(table, triangles.material[index], interpolate(triangles.uvs[index], u, v))
-    radiance = material.emission / np.where(pdf > 0.0, pdf, np.inf)[:, None]
+    shown = material.emission * material.column["present"][:, None]
+    radiance = shown / np.where(pdf > 0.0, pdf, np.inf)[:, None]
     return LightSample(wi, distance, radiance, pdf)
 
 

@@ -5,7 +5,7 @@ A batch of paths walks together, one loop turn a segment; paths that end drop ou
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from .reference_environment import Sky, build_sky, evaluate_sky, pdf_sky, sample
 from .reference_lights import LightSample, hit_light, sample_light
 from .reference_math import mis_weight
 from .reference_scene import FAR, MISS, Hits, Rays, TracedScene, build_traced_scene
+from .reference_sheets import has_sheets, pass_sheets, transmittance
 from .reference_surface import MaterialTable, Surface, build_material_table, build_surface
 from .scene_arrays import Float64, SceneArrays
 
@@ -34,6 +35,8 @@ class World:
     glow: Glow | None
     color: Float64
     sky: Sky | None = None
+    sheets: bool = False
+    """whether any material lets light straight through"""
 
 
 @dataclass(slots=True)
@@ -73,7 +76,9 @@ def build_world(scene: SceneArrays) -> World:
     materials = build_material_table(scene)
     glow = build_glow(traced.triangles, materials)
     sky = None if scene.environment is None else build_sky(scene.environment)
-    return World(scene, traced, materials, glow, np.asarray(scene.world, dtype=np.float64), sky)
+    return World(
+        scene, traced, materials, glow, np.asarray(scene.world, dtype=np.float64), sky, has_sheets(materials)
+    )
 
 
 def trace_paths(world: World, camera: CameraRays, max_bounces: int, rng: np.random.Generator) -> Estimate:
@@ -83,6 +88,9 @@ def trace_paths(world: World, camera: CameraRays, max_bounces: int, rng: np.rand
     paths = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count))
     for segment in range(max_bounces + 2):
         hits = world.traced.intersect(paths.rays)
+        if world.sheets:
+            hits, tint = pass_sheets(world.traced, world.materials, paths.rays, hits, rng)
+            paths = replace(paths, throughput=paths.throughput * tint)
         if segment == 0:
             estimate.rays.camera += count
         else:
@@ -174,9 +182,13 @@ def add_light_sample(world: World, paths: Paths, bsdf: Bsdf, sample: LightSample
     # Short of the light by as much as the ray starts off, lest a glowing triangle shadow itself.
     distance = sample.distance[rows]
     far = np.where(np.isinf(distance), FAR, distance * (1.0 - 1e-5) - 2.0 * surface.epsilon[rows])
-    blocked = world.traced.occluded(Rays(start, sample.wi[rows], np.maximum(far, 0.0)))
+    rays = Rays(start, sample.wi[rows], np.maximum(far, 0.0))
     estimate.rays.shadow += int(rows.sum())
-    estimate.radiance[paths.index[rows]] += np.where(blocked[:, None], 0.0, light[rows])
+    if world.sheets:
+        passed = transmittance(world.traced, world.materials, rays)
+    else:
+        passed = np.where(world.traced.occluded(rays)[:, None], 0.0, 1.0)
+    estimate.radiance[paths.index[rows]] += passed * light[rows]
 
 
 def scatter(paths: Paths, bsdf: Bsdf, rng: np.random.Generator, roulette: bool) -> Paths:

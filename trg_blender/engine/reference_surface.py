@@ -91,6 +91,7 @@ def evaluate_material(table: MaterialTable, index: NDArray[np.int64], uv: Float6
     emission = emission * textured(table, column["emission_texture"], uv, np.ones_like(emission))
     roughness = textured_number(table, "roughness", column, uv)
     metallic = textured_number(table, "metallic", column, uv)
+    column["present"] = textured_number(table, "alpha", column, uv)
     return Material(
         base,
         metallic,

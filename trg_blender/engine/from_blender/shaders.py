@@ -180,9 +180,9 @@ def _glass(reader: ShaderReader, node: bpy.types.Node) -> Material:
 
 
 def _transparent(reader: ShaderReader, node: bpy.types.Node) -> Material:
-    """An interface of index 1 bends and reflects nothing."""
-    base, _ = reader.color(node, "Color")
-    return Material(*(channel * channel for channel in base), roughness=0.0, ior=1.0, transmission=1.0)
+    color, _ = reader.color(node, "Color")
+    red, green, blue = (_share(channel) for channel in color)
+    return replace(BLACK, alpha=0.0, through_r=red, through_g=green, through_b=blue)
 
 
 def _sheen(reader: ShaderReader, node: bpy.types.Node) -> Material:
@@ -215,8 +215,6 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
     emission, emission_texture = reader.color(node, "Emission Color")
     strength = reader.plain_number(node, "Emission Strength")
     alpha, alpha_texture = reader.number(node, "Alpha")
-    if alpha < 1 or alpha_texture >= 0:
-        reader.miss(f"Alpha of node {node.name!r} (Principled BSDF)")
     tint, _ = reader.color(node, "Specular Tint")
     return replace(
         _layers(reader, node),
