@@ -190,7 +190,7 @@ PyMethodDef kJobMethods[] = {
      "error() -> dict: replicates, groups, mse, relmse, delete_one_mse; None below 2 replicates"},
     {"pixel_error", as_method(pixel_error_method), METH_VARARGS | METH_KEYWORDS,
      "pixel_error(half_width, flags) -> dict: fills float32 (h, w), the 95 % half width of each "
-     "pixel's luminance, and uint8 (h, w): 1 no replicate saw light, 2 one holds nearly all"},
+     "pixel's luminance, and uint8 (h, w): 1 no replicate saw light, 2 one makes nearly all of the spread"},
     {nullptr, nullptr, 0, nullptr}};
 
 PyType_Slot kJobSlots[] = {

@@ -23,8 +23,8 @@ STUDENT_95 = {1: 12.7062, 2: 4.3027, 3: 3.1824, 4: 2.7764, 5: 2.5706, 6: 2.4469,
 """Two-sided 95 % points of Student's t by degrees of freedom."""
 
 
-LONELY_ERROR_LIMIT, LONELY_LIMIT, UNSEEN_LIMIT = 0.5, 0.02, 0.1
-"""From these shares on the error cannot be told: benchmarks/calibration.py shows how it holds below."""
+LONELY_ERROR_LIMIT = 0.7
+"""From this share on the error cannot be told: benchmarks/calibration.py shows how it holds below."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,17 +36,13 @@ class Evidence:
     unseen: float
     """of lit pixels: no replicate has seen light"""
     lonely: float
-    """of lit pixels: one replicate holds nine tenths of the light"""
+    """of lit pixels: one replicate makes four fifths of the spread"""
     lonely_error: float
     """of the mean squared error: what lonely pixels make of it"""
 
     @property
     def is_enough(self) -> bool:
-        return (
-            self.lonely_error < LONELY_ERROR_LIMIT
-            and self.lonely < LONELY_LIMIT
-            and self.unseen < UNSEEN_LIMIT
-        )
+        return self.lonely_error < LONELY_ERROR_LIMIT
 
 
 @dataclass(frozen=True, slots=True)
@@ -108,7 +104,11 @@ def estimate_error(material: Mapping[str, Any]) -> PictureError:
 def jackknife_interval(
     mse: float, delete_one: tuple[float, ...], groups: int = 1
 ) -> tuple[float, float] | None:
-    """95 % interval of the RMSE; None below three replicates.
+    """95 % interval of the error that the picture has; None below three replicates.
+
+    The error of one picture differs from the mean error of such pictures. Of the squared error of one
+    replicate, s^2 / count is the variance of the estimate and s^2 that of a picture, were its noise normal as
+    the replicates'; so the jackknife's variance counts 1 + count times. Heavy tails make it too wide.
 
     With `groups`, so many equal runs of replicates were drawn apart: each has its own mean and gives one
     degree of freedom less. A common factor on all of `delete_one` does not matter.
@@ -123,7 +123,7 @@ def jackknife_interval(
     each = logs.reshape(groups, -1)
     size = each.shape[1]
     spread = (size - 1) / size * float(((each - each.mean(axis=1, keepdims=True)) ** 2).sum())
-    half_width = 0.5 * STUDENT_95[min(count - groups, 7)] * math.sqrt(spread)
+    half_width = 0.5 * STUDENT_95[min(count - groups, 7)] * math.sqrt((1 + count) * spread)
     rmse = math.sqrt(mse)
     return (rmse * math.exp(-half_width), rmse * math.exp(half_width))
 

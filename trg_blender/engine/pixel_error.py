@@ -9,9 +9,9 @@ from .image_error import STUDENT_95
 from .scene_arrays import Float32, Float64
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
-REACH = 2
-"""of the neighbourhood, in pixels"""
-LONELY_SHARE = 0.9
+REACH, WIDE_REACH = 2, 4
+"""of the neighbourhoods, in pixels"""
+LONELY_SHARE = 0.8
 UNSEEN, LONELY = 1, 2
 
 
@@ -20,8 +20,9 @@ def measure_pixel_error(
 ) -> dict[str, float]:
     """Fills `half_width` (h, w), the 95 % half width of each pixel's luminance, and `flags` (h, w).
 
-    `sums` is (r, h, w, 3), `counts` (r,). The variance is the larger of the pixel's own and the mean over
-    the five by five pixels around it. Flags: 1 no replicate has seen light, 2 one holds nine tenths of it.
+    `sums` is (r, h, w, 3), `counts` (r,). The variance is the largest of the pixel's own and the means over
+    the five by five and the nine by nine pixels around it. Flags: 1 no replicate has seen light, 2 one makes
+    four fifths of the spread.
     Gives the fields of image_error.Evidence. All 0 below two replicates.
     """
     half_width[...], flags[...] = 0.0, 0
@@ -34,12 +35,15 @@ def measure_pixel_error(
     mean = (weights * means).sum(axis=0) / weights.sum()
     spread = (weights * (means - mean) ** 2).sum(axis=0)
     variance = spread / ((replicates - 1) * weights.sum())
-    light = np.abs(means)
-    total = light.sum(axis=0)
+    total = np.abs(means).sum(axis=0)
     flags[total == 0.0] = UNSEEN
-    flags[(total > 0.0) & (light.max(axis=0) >= LONELY_SHARE * total)] = LONELY
-    half_width[...] = STUDENT_95[replicates - 1] * np.sqrt(np.maximum(variance, pooled(variance)))
-    return evidence_of(pooled(total) > 0.0, flags, variance)
+    squares = (means - means.mean(axis=0)) ** 2
+    alone = squares.max(axis=0) >= LONELY_SHARE * squares.sum(axis=0)
+    if replicates > 2:
+        flags[(total > 0.0) & (squares.sum(axis=0) > 0.0) & alone] = LONELY
+    around = np.maximum(pooled(variance, REACH), pooled(variance, WIDE_REACH))
+    half_width[...] = STUDENT_95[replicates - 1] * np.sqrt(np.maximum(variance, around))
+    return evidence_of(pooled(total, REACH) > 0.0, flags, variance)
 
 
 def evidence_of(lit: NDArray[np.bool_], flags: NDArray[np.uint8], variance: Float64) -> dict[str, float]:
@@ -53,12 +57,12 @@ def evidence_of(lit: NDArray[np.bool_], flags: NDArray[np.uint8], variance: Floa
     }
 
 
-def pooled(values: Float64) -> Float64:
+def pooled(values: Float64, reach: int) -> Float64:
     """Mean over the neighbourhood of each pixel, cut at the borders."""
     height, width = values.shape
     total, count = np.zeros((height, width)), np.zeros((height, width))
-    for dy in range(-REACH, REACH + 1):
-        for dx in range(-REACH, REACH + 1):
+    for dy in range(-reach, reach + 1):
+        for dx in range(-reach, reach + 1):
             here = np.s_[max(-dy, 0) : height - max(dy, 0), max(-dx, 0) : width - max(dx, 0)]
             there = np.s_[max(dy, 0) : height - max(-dy, 0), max(dx, 0) : width - max(-dx, 0)]
             total[here] += values[there]

@@ -173,8 +173,8 @@ def error_note(facts: RenderFacts) -> str | None:
     if evidence.is_enough:
         return None
     return (
-        f"not reliable: one replicate alone holds the light of {evidence.lonely:.1%} of the lit pixels "
-        f"({evidence.lonely_error:.0%} of the error), none has seen it in {evidence.unseen:.1%}"
+        f"not reliable: {evidence.lonely_error:.0%} of the error lies in {evidence.lonely:.1%} of the lit "
+        "pixels, whose noise one replicate alone has met: rare bright paths; render longer"
     )
 
 
