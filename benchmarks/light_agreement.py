@@ -20,10 +20,10 @@ def main() -> int:
     parser.add_argument("names", nargs="*", metavar="NAME")
     parser.add_argument("--samples", type=int, default=1024)
     args = parser.parse_args()
-    from tests.blender.cycles_scenes import LIGHTS, enable_cycles, new_scene, ratio_of_means
+    from tests.blender.cycles_scenes import CAMERAS, LIGHTS, enable_cycles, new_scene, ratio_of_means
 
     enable_cycles()
-    for name, build in LIGHTS.items():
+    for name, build in (LIGHTS | CAMERAS).items():
         if args.names and not any(part in name for part in args.names):
             continue
         new_scene()

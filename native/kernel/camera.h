@@ -5,18 +5,66 @@
 
 namespace trg {
 
-/// The ray through (x, y) in pixels of the whole picture. Its t is the depth along the camera's -Z.
-TRG_FN Ray make_camera_ray(const RenderView& view, float x, float y) {
+/// A point of the aperture, even by area: a disc or a regular polygon with corners on its rim.
+TRG_FN Vec3 sample_aperture(const CameraView& c, Sample2 uv) {
+    float x, y;
+    if (c.blades < 3) {
+        sample_disc(uv.u, uv.v, &x, &y);
+    } else {
+        const float blades = static_cast<float>(c.blades), scaled = uv.u * blades;
+        const float blade = std::floor(scaled);
+        const float outwards = std::sqrt(scaled - blade), half = kPi / blades;
+        const float along = outwards * std::cos(half);
+        const float aside = outwards * std::sin(half) * (2.0f * uv.v - 1.0f);
+        const float turn = c.blade_turn + 2.0f * half * blade;
+        x = along * std::cos(turn) - aside * std::sin(turn);
+        y = along * std::sin(turn) + aside * std::cos(turn);
+    }
+    return c.axis_x * (x * c.aperture * c.squeeze) + c.axis_y * (y * c.aperture);
+}
+
+/// Unit direction of longitude `x` to the right and latitude `y`.
+TRG_FN Vec3 panorama_direction(const CameraView& c, float x, float y) {
+    const float rim = std::cos(y);
+    return c.axis_x * (rim * std::sin(x)) + c.axis_y * std::sin(y) - c.axis_z * (rim * std::cos(x));
+}
+
+/// The ray through (x, y) in pixels of the whole picture, its lens point drawn by `lens`. Its t is
+/// the depth along the camera's -Z, of a panorama the distance.
+TRG_FN Ray make_camera_ray(const RenderView& view, float x, float y, Sample2 lens) {
     const CameraView& c = view.scene.camera;
     const float sx = c.left + (c.right - c.left) * (x / static_cast<float>(view.width));
     const float sy = c.bottom + (c.top - c.bottom) * (y / static_cast<float>(view.height));
+    const bool perspective = c.kind == CameraKind::perspective;
     const Vec3 across = c.axis_x * sx + c.axis_y * sy;
     Ray ray;
-    ray.origin = c.perspective ? c.origin : c.origin + across;
-    ray.direction = c.perspective ? across - c.axis_z : -c.axis_z;
+    ray.origin = c.kind == CameraKind::orthographic ? c.origin + across : c.origin;
+    ray.direction = perspective ? across - c.axis_z : -c.axis_z;
+    if (c.kind == CameraKind::panorama) ray.direction = panorama_direction(c, sx, sy);
     ray.t_min = c.clip_start;
     ray.t_max = c.clip_end;
+    if (c.aperture > 0.0f) {
+        const Vec3 off = sample_aperture(c, lens);
+        ray.origin = ray.origin + off;
+        ray.direction = ray.direction - off * (1.0f / c.focus);
+    }
     return ray;
+}
+
+/// The middle of the aperture: blades apart, both numbers are the disc's centre.
+TRG_FN Ray make_camera_ray(const RenderView& view, float x, float y) {
+    RenderView sharp = view;
+    sharp.scene.camera.aperture = 0.0f;
+    return make_camera_ray(sharp, x, y, {0.5f, 0.5f});
+}
+
+/// Where in or about a pixel `u` of the filter falls, from its lower edge.
+TRG_FN float filter_place(const RenderView& view, float u) {
+    if (!view.scene.filter) return u;
+    const float place = u * kFilterSteps;
+    const int32_t step = static_cast<int32_t>(place);
+    const float part = place - static_cast<float>(step);
+    return 0.5f + view.scene.filter[step] * (1.0f - part) + view.scene.filter[step + 1] * part;
 }
 
 /// Starts the paths of `chunk`; returns how many.
@@ -29,8 +77,12 @@ TRG_FN int32_t generate_paths(const RenderView& view, const Chunk& chunk, PathQu
                                               static_cast<uint32_t>(pixel.y), sample, view.seed);
         const Sample2 uv = sample_uniform2(key, kPixelDimension);
         queues.keys[i] = key;
-        queues.rays[i] = make_camera_ray(view, static_cast<float>(pixel.x) + uv.u,
-                                         static_cast<float>(pixel.y) + uv.v);
+        const Sample2 lens = view.scene.camera.aperture > 0.0f
+                                 ? sample_uniform2(key, kLensDimension)
+                                 : Sample2{0.5f, 0.5f};
+        queues.rays[i] =
+            make_camera_ray(view, static_cast<float>(pixel.x) + filter_place(view, uv.u),
+                            static_cast<float>(pixel.y) + filter_place(view, uv.v), lens);
         queues.states[i] = {{1.0f, 1.0f, 1.0f}, 0.0f, i};
         queues.results[i] = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, false};
     }

@@ -19,7 +19,7 @@ struct LookUp {
 /// allows.
 TRG_FN float bump_step(const SceneView& scene, Vec3 position) {
     const Vec3 to = position - scene.camera.origin;
-    const float distance = scene.camera.perspective ? length(to) : 1.0f;
+    const float distance = scene.camera.kind != CameraKind::orthographic ? length(to) : 1.0f;
     const float size = max_component(absolute(position));
     return larger(scene.pixel_spread * distance, 2e-4f * size + 1e-9f);
 }

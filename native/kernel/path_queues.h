@@ -67,7 +67,8 @@ struct RayCounts {
 /// Pairs of dimensions of the sampler: the camera's, then a block for each surface.
 enum Dimension : uint32_t {
     kPixelDimension = 0,
-    kFirstBounceDimension = 1,
+    kLensDimension = 1,
+    kFirstBounceDimension = 2,
     kDirection = 0,
     kLobe = 1,  // lobe and roulette
     kPoolPoint = 2,

@@ -64,12 +64,20 @@ struct EmitterView {
     LightTreeView tree;      // where it is, it draws the triangles and most lights
 };
 
+enum class CameraKind : int32_t { perspective, orthographic, panorama };
+
 struct CameraView {
-    bool perspective;
+    CameraKind kind;
     Vec3 axis_x, axis_y, axis_z, origin;
-    float left, right, bottom, top;
+    float left, right, bottom, top;  // of a panorama: longitudes and latitudes
+    float aperture;                  // radius of the lens; 0: all is sharp
+    float focus;                     // depth of what is sharp
+    int32_t blades;                  // below 3: a disc
+    float blade_turn, squeeze;       // rotation of the polygon; what its width is scaled by
     float clip_start, clip_end;
 };
+
+constexpr int kFilterSteps = 1024;
 
 struct SceneView {
     const World* world;
@@ -89,7 +97,8 @@ struct SceneView {
     Vec3 background;  // where there is no environment
     EnvironmentView environment;
     CameraView camera;
-    float pixel_spread;  // a pixel's side, at distance 1 where the camera is perspective
+    const float* filter;  // kFilterSteps + 1 quantiles of the pixel filter; null: a box of a pixel
+    float pixel_spread;   // a pixel's side, at distance 1 where the camera is perspective
 };
 
 }  // namespace trg

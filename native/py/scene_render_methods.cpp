@@ -74,14 +74,32 @@ PyObject* set_camera_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         PyObject *matrix, *window;
         request.clip_start = 1e-6;
         request.clip_end = 1e30;
-        const char* const names[] = {"kind", "matrix", "window", "clip_start", "clip_end", nullptr};
-        parse_arguments(args, kwargs, "iOO|dd", names, &request.kind, &matrix, &window,
-                        &request.clip_start, &request.clip_end);
+        request.focus = request.squeeze = 1.0;
+        const char* const names[] = {"kind",       "matrix",   "window", "clip_start",
+                                     "clip_end",   "aperture", "focus",  "blades",
+                                     "blade_turn", "squeeze",  nullptr};
+        parse_arguments(args, kwargs, "iOO|ddddidd", names, &request.kind, &matrix, &window,
+                        &request.clip_start, &request.clip_end, &request.aperture, &request.focus,
+                        &request.blades, &request.blade_turn, &request.squeeze);
         const Buffer rows = Buffer::of<double>(matrix, "matrix", {3, 4});
         const Buffer sides = Buffer::of<double>(window, "window", {4});
         request.matrix = rows.data<double>();
         request.window = sides.data<double>();
         set_camera(scene_to_change(self).tables, request);
+        return none();
+    });
+}
+
+PyObject* set_filter_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        PyObject* name;
+        double width = 1.0;
+        const char* const names[] = {"name", "width", nullptr};
+        parse_arguments(args, kwargs, "O|d", names, &name, &width);
+        Py_ssize_t size;
+        const char* text = PyUnicode_AsUTF8AndSize(name, &size);
+        if (!text) throw PythonError{};
+        set_filter(scene_to_change(self).tables, std::string(text, size), width);
         return none();
     });
 }
@@ -151,8 +169,9 @@ PyObject* start_render_method(PyObject* self, PyObject* args, PyObject* kwargs) 
         PyObject *passes = nullptr, *border = nullptr;
         int adaptive = 0;
         request.max_bounces = 12;
-        const char* const names[] = {"width",  "height", "samples", "seed", "max_bounces", "threads",
-                                     "passes", "border", "seconds", "rmse", "adaptive",    nullptr};
+        const char* const names[] = {"width",       "height",  "samples",  "seed",
+                                     "max_bounces", "threads", "passes",   "border",
+                                     "seconds",     "rmse",    "adaptive", nullptr};
         parse_arguments(args, kwargs, "iiL|KiiOOddp", names, &request.width, &request.height,
                         &samples, &seed, &request.max_bounces, &request.threads, &passes, &border,
                         &request.seconds, &request.rmse, &adaptive);
@@ -180,12 +199,17 @@ PyMethodDef kSceneRenderMethods[] = {
      "pixels: float32 (h, w, 3) radiance, row 0 looks down; rotation float64 (3, 3), world to "
      "picture."},
     {"set_camera", as_method(set_camera_method), METH_VARARGS | METH_KEYWORDS,
-     "set_camera(kind, matrix, window, clip_start=1e-6, clip_end=1e30)\n\n"
-     "kind 0 is perspective, 1 orthographic; matrix float64 (3, 4); window float64 (4,)."},
+     "set_camera(kind, matrix, window, clip_start=1e-6, clip_end=1e30, aperture=0, focus=1, "
+     "blades=0, blade_turn=0, squeeze=1)\n\n"
+     "kind 0 is perspective, 1 orthographic, 2 a panorama; matrix float64 (3, 4); window float64 "
+     "(4,)."},
+    {"set_filter", as_method(set_filter_method), METH_VARARGS | METH_KEYWORDS,
+     "set_filter(name, width=1.0): box, gaussian or blackman_harris of Blender's width in pixels"},
     {"start_render", as_method(start_render_method), METH_VARARGS | METH_KEYWORDS,
      "start_render(width, height, samples, seed=0, max_bounces=12, threads=0, passes=(), "
      "border=None, seconds=0, rmse=0, adaptive=False) -> Job\n\n"
-     "Ends with its samples, after `seconds` of wall-clock time, or when the estimated error of the "
+     "Ends with its samples, after `seconds` of wall-clock time, or when the estimated error of "
+     "the "
      "picture is `rmse`, whichever comes first; 0 is no limit."},
     {nullptr, nullptr, 0, nullptr}};
 

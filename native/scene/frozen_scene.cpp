@@ -47,6 +47,7 @@ FrozenScene::FrozenScene(const Scene& scene) {
     view_.background = scene.tables.background;
     view_.environment = view_environment(scene.tables.environment);
     view_.camera = scene.tables.camera;
+    view_.filter = data_or_null(scene.tables.filter);
     features_ = find_features(scene);
     view_.see_through = (features_ & kSeeThrough) != 0;
 }

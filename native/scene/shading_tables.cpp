@@ -122,8 +122,14 @@ void set_environment(ShadingTables& tables, Environment environment) {
 }
 
 void set_camera(ShadingTables& tables, const CameraRequest& request) {
-    if (request.kind != 0 && request.kind != 1)
-        throw TableError("kind: " + std::to_string(request.kind) + ", expected 0 or 1");
+    if (request.kind < 0 || request.kind > 2)
+        throw TableError("kind: " + std::to_string(request.kind) + ", expected 0, 1 or 2");
+    if (!(request.aperture >= 0.0 && request.aperture < 1e18))
+        throw TableError("aperture: expected 0 or more");
+    if (!(request.focus > 0.0 && request.focus < 1e30))
+        throw TableError("focus: expected more than 0");
+    if (!std::isfinite(request.blade_turn) || !(request.squeeze > 0.0 && request.squeeze < 1e6))
+        throw TableError("blade_turn, squeeze: expected an angle and a positive number");
     for (int k = 0; k < 12; ++k)
         if (!std::isfinite(request.matrix[k])) throw TableError("matrix: expected finite numbers");
     for (int k = 0; k < 4; ++k)
@@ -132,7 +138,12 @@ void set_camera(ShadingTables& tables, const CameraRequest& request) {
         throw TableError("clip_start: expected 0 <= clip_start < clip_end");
     const double* m = request.matrix;
     CameraView& c = tables.camera;
-    c.perspective = request.kind == 0;
+    c.kind = static_cast<CameraKind>(request.kind);
+    c.aperture = c.kind == CameraKind::panorama ? 0.0f : static_cast<float>(request.aperture);
+    c.focus = static_cast<float>(request.focus);
+    c.blades = request.blades;
+    c.blade_turn = static_cast<float>(request.blade_turn);
+    c.squeeze = static_cast<float>(request.squeeze);
     c.axis_x = to_float(Vec3d{m[0], m[4], m[8]});
     c.axis_y = to_float(Vec3d{m[1], m[5], m[9]});
     c.axis_z = to_float(Vec3d{m[2], m[6], m[10]});

@@ -29,6 +29,7 @@ struct ShadingTables {
     Vec3 background{0.0f, 0.0f, 0.0f};
     Environment environment;
     CameraView camera{};
+    std::vector<float> filter;  // quantiles; empty: a box of one pixel
     bool has_camera = false;
 };
 
@@ -38,6 +39,9 @@ struct CameraRequest {
     const double* matrix;
     const double* window;  // left, right, bottom, top
     double clip_start, clip_end;
+    double aperture, focus;  // radius of the lens, depth of what is sharp
+    int blades;
+    double blade_turn, squeeze;
 };
 
 /// Each replaces its table. All throw TableError.
@@ -47,6 +51,8 @@ void set_background(ShadingTables& tables, float r, float g, float b);
 /// Takes the place of the background. `environment` has pixels, size, axes and visibility; throws
 /// TableError for pixels that are not finite.
 void set_environment(ShadingTables& tables, Environment environment);
+/// The pixel filter: box, gaussian or blackman_harris of Blender's `width` in pixels. TableError.
+void set_filter(ShadingTables& tables, const std::string& name, double width);
 void set_camera(ShadingTables& tables, const CameraRequest& request);
 
 }  // namespace trg

@@ -92,7 +92,62 @@ def add_environment(sun: float = 40.0, rotation=(0.3, -0.2, 0.7), kind: str = "P
     tree.nodes["Background"].inputs["Strength"].default_value = 0.8
 
 
+def set_camera(**fields: object) -> None:
+    """Fields of the camera, those of its depth of field as dof_NAME, and light from all around."""
+    add_environment()
+    data = bpy.context.scene.camera.data
+    for name, value in fields.items():
+        if name.startswith("dof_"):
+            data.dof.use_dof = True
+            setattr(data.dof, name[4:], value)
+        else:
+            setattr(data, name, value)
+
+
+def set_panorama() -> None:
+    set_camera(type="PANO", panorama_type="EQUIRECTANGULAR", longitude_min=-2.0, longitude_max=2.8,
+               latitude_min=-1.2, latitude_max=0.6)
+
+
+CAMERAS: dict[str, Callable[[], object]] = {
+    "camera_shift_portrait": lambda: set_camera(shift_x=0.2, shift_y=-0.1, sensor_fit="VERTICAL", lens=35.0),
+    "camera_orthographic": lambda: set_camera(type="ORTHO", ortho_scale=3.0),
+    "camera_clipped": lambda: set_camera(clip_start=3.8, clip_end=5.2),
+    "camera_lens": lambda: set_camera(dof_aperture_fstop=0.05, dof_focus_distance=4.0),
+    "camera_lens_blades": lambda: set_camera(
+        dof_aperture_fstop=0.03,
+        dof_focus_distance=3.0,
+        dof_aperture_blades=3,
+        dof_aperture_rotation=0.4,
+        dof_aperture_ratio=2.0,
+    ),
+    "camera_lens_orthographic": lambda: set_camera(
+        type="ORTHO", ortho_scale=3.0, dof_aperture_fstop=1.0, dof_focus_distance=3.0, dof_aperture_blades=5
+    ),
+    "camera_panorama": set_panorama,
+}
+
 LIGHTS: dict[str, Callable[[], object]] = {
+    "sun": lambda: add_light("SUN", 2.0, angle=0.0),
+    "sun_angle": lambda: add_light("SUN", 2.0, angle=0.5),
+    "point": lambda: add_light("POINT", 100.0, shadow_soft_size=0.0),
+    "point_sphere": lambda: add_light("POINT", 100.0, shadow_soft_size=0.4, use_soft_falloff=False),
+    "point_soft_falloff": lambda: add_light("POINT", 100.0, shadow_soft_size=0.4, use_soft_falloff=True),
+    "spot": lambda: add_light("SPOT", 200.0, shadow_soft_size=0.0, spot_size=1.2, spot_blend=0.4),
+    "spot_sphere": lambda: add_light(
+        "SPOT", 200.0, shadow_soft_size=0.3, spot_size=1.2, spot_blend=0.4, use_soft_falloff=False
+    ),
+    "spot_soft_falloff": lambda: add_light(
+        "SPOT", 200.0, shadow_soft_size=0.3, spot_size=1.2, spot_blend=0.4, use_soft_falloff=True
+    ),
+    "area_rectangle": lambda: add_light("AREA", 60.0, shape="RECTANGLE", size=1.2, size_y=0.4),
+    "area_ellipse": lambda: add_light("AREA", 60.0, shape="ELLIPSE", size=1.2, size_y=0.4),
+    "area_temperature": lambda: add_light(
+        "AREA", 60.0, shape="SQUARE", size=0.5, use_temperature=True, temperature=3500.0, exposure=0.5
+    ),
+    "area_not_normalised": lambda: add_light("AREA", 60.0, shape="DISK", size=0.5, normalize=False),
+    "area_spread_wide": lambda: add_light("AREA", 60.0, shape="SQUARE", size=0.8, spread=2.2),
+    "area_spread_thin": lambda: add_light("AREA", 60.0, shape="SQUARE", size=0.8, spread=0.5),
     "world_constant": add_world,
     "world_environment": add_environment,
     "world_environment_texture_mapping": lambda: add_environment(kind="TEXTURE"),

@@ -9,7 +9,7 @@ addon_utils = pytest.importorskip("addon_utils")
 
 from trg_blender.engine.devices import find_device  # noqa: E402
 
-from .cycles_scenes import LIGHTS, new_scene, ratio_of_means  # noqa: E402
+from .cycles_scenes import CAMERAS, LIGHTS, new_scene, ratio_of_means  # noqa: E402
 
 SAMPLES = 1024
 
@@ -23,10 +23,13 @@ def cycles():
     addon_utils.disable("cycles")
 
 
-@pytest.mark.parametrize("name", LIGHTS)
-def test_a_light_gives_the_mean_that_cycles_gives(name: str):
+CASES = LIGHTS | CAMERAS
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_light_or_camera_gives_the_mean_that_cycles_gives(name: str):
     new_scene()
-    LIGHTS[name]()
+    CASES[name]()
     ratio, worst_block = ratio_of_means(SAMPLES)
     assert ratio == pytest.approx(1.0, abs=5e-3)
     assert worst_block < 0.03

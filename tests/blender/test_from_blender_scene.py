@@ -15,6 +15,7 @@ from mathutils import Vector  # noqa: E402
 from trg_blender.engine.errors import SceneError  # noqa: E402
 from trg_blender.engine.from_blender import SceneReader  # noqa: E402
 from trg_blender.engine.from_blender.meshes import MeshRequest, read_mesh, view_in_place  # noqa: E402
+from trg_blender.engine.scene_arrays import CAMERA_KINDS  # noqa: E402
 
 
 @pytest.fixture
@@ -213,11 +214,20 @@ def test_points_land_where_blender_puts_them(scene, name):
         assert ours == pytest.approx(tuple(theirs), abs=2e-5)
 
 
-def test_a_panoramic_camera_is_perspective_with_a_warning(scene):
-    scene.camera.data.type = "PANO"
+def test_an_equirectangular_camera_spans_its_angles(scene):
+    data = scene.camera.data
+    data.type, data.panorama_type = "PANO", "EQUIRECTANGULAR"
+    data.longitude_min, data.latitude_max = -2.0, 0.5
+    camera = read(scene).camera
+    assert CAMERA_KINDS[camera.kind] == "panorama"
+    assert camera.window == pytest.approx((-2.0, math.pi, -math.pi / 2, 0.5))
+
+
+def test_another_panorama_is_perspective_with_a_warning(scene):
+    scene.camera.data.type, scene.camera.data.panorama_type = "PANO", "FISHEYE_EQUISOLID"
     arrays = read(scene)
     assert arrays.camera.kind == 0
-    assert "PANO is rendered as perspective" in arrays.warnings[0]
+    assert "FISHEYE_EQUISOLID is rendered as perspective" in arrays.warnings[0]
 
 
 def test_geometry_nodes_instances_arrive_as_one_group(scene):

@@ -172,6 +172,21 @@ def _orthographic() -> SceneArrays:
     return scene
 
 
+def _lens(kind: int = 0, blades: int = 0) -> SceneArrays:
+    scene = studio(MATERIALS["plastic"])
+    scene.camera = look_at((2.6, -2.4, 1.8), (0, 0, 0.3), 0.42 if kind == 0 else 1.5, kind=kind)
+    scene.camera.aperture, scene.camera.focus = 0.25, 3.0
+    scene.camera.blades, scene.camera.blade_turn, scene.camera.squeeze = blades, 0.3, 0.6
+    return scene
+
+
+def _panorama() -> SceneArrays:
+    scene = studio(MATERIALS["plastic"])
+    scene.camera = look_at((0.6, -0.9, 0.9), (0, 0, 0.4), kind=2)
+    scene.camera.window = (-2.5, 3.0, -1.3, 1.5)
+    return scene
+
+
 def _all_lights() -> SceneArrays:
     scene = studio(MATERIALS["plastic"], *LIGHTS.values())
     scene.materials[0] = replace(GREY, emission_g=0.3)
@@ -278,6 +293,10 @@ GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "mirrored_and_squashed": _mirrored_and_squashed,
     "many_copies": _many_copies,
     "glow": _glow,
+    "lens": _lens,
+    "lens_blades": lambda: _lens(0, 5),
+    "lens_orthographic": lambda: _lens(1, 6),
+    "panorama": _panorama,
     "orthographic_clipped": _orthographic,
     "all_lights": _all_lights,
     "many_lights": _many_lights,
@@ -303,6 +322,9 @@ def cases() -> dict[str, Case]:
         found[name] = (scene, replace(SETTINGS, samples=128) if len(scene.lights) > 5 else SETTINGS)
     found["direct_light_only"] = (studio(MATERIALS["metal"]), replace(SETTINGS, max_bounces=0))
     found["one_bounce"] = (studio(MATERIALS["glass"]), replace(SETTINGS, max_bounces=1))
+    for name, width in (("box", 3.0), ("gaussian", 2.0), ("blackman_harris", 1.5)):
+        filtered = replace(SETTINGS, pixel_filter=name, filter_width=width)
+        found[f"filter_{name}"] = (studio(MATERIALS["glowing"]), filtered)
     found["border"] = (
         studio(MATERIALS["plastic"]),
         replace(SETTINGS, width=32, height=24, border=(7, 4, 23, 20)),

@@ -41,7 +41,19 @@ def build_native_scene(
     camera = scene.camera
     matrix = np.ascontiguousarray(camera.matrix, dtype=np.float64)
     window = np.array(camera.window, dtype=np.float64)
-    result.set_camera(camera.kind, matrix, window, camera.clip_start, camera.clip_end)
+    result.set_camera(
+        camera.kind,
+        matrix,
+        window,
+        camera.clip_start,
+        camera.clip_end,
+        camera.aperture,
+        camera.focus,
+        camera.blades,
+        camera.blade_turn,
+        camera.squeeze,
+    )
+    result.set_filter(settings.pixel_filter, settings.filter_width)
     return result, dict(result.build(settings.threads, expected_rays(scene, settings)))
 
 

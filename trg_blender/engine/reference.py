@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from .reference_camera import CameraRays, build_camera_rays
+from .reference_camera import CameraRays, build_camera_rays, filter_offsets
 from .reference_path import Estimate, RayCounts, World, build_world, trace_paths
 from .reference_scene import MISS
 from .scene_arrays import Float64, RenderSettings, SceneArrays
@@ -106,13 +106,18 @@ def make_film(world: World, settings: RenderSettings) -> ReferenceFilm:
 
 
 def pixel_rays(
-    scene: SceneArrays, settings: RenderSettings, pixels: NDArray[np.int64], place: Float64
+    scene: SceneArrays,
+    settings: RenderSettings,
+    pixels: NDArray[np.int64],
+    place: Float64,
+    lens: Float64 | None = None,
 ) -> CameraRays:
-    """Camera rays through `place` (n, 2) within the film's pixels, which are numbered row by row."""
+    """Camera rays through `place` (n, 2) within the film's pixels, which are numbered row by row, and
+    through `lens` of the aperture."""
     window = film_window(settings)
     x = window.x_min + pixels % window.width + place[:, 0]
     y = window.y_min + pixels // window.width + place[:, 1]
-    return build_camera_rays(scene.camera, (settings.width, settings.height), x, y)
+    return build_camera_rays(scene.camera, (settings.width, settings.height), x, y, lens)
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,7 +177,9 @@ def expose_step(
         if cancelled():
             return None
         part = index[first : first + BATCH]
-        camera = pixel_rays(world.scene, settings, part, rng.random((len(part), 2)))
+        even = rng.random((len(part), 2))
+        place = 0.5 + filter_offsets(settings.pixel_filter, settings.filter_width, even)
+        camera = pixel_rays(world.scene, settings, part, place, rng.random((len(part), 2)))
         parts.append(trace_paths(world, camera, settings.max_bounces, rng))
     rays = RayCounts(
         sum(p.rays.camera for p in parts),

@@ -27,7 +27,7 @@ SHAPES = ("triangles", "sphere", "plane")
 """what a mesh may be: its triangles, the unit sphere round the origin, the infinite plane z = 0"""
 INTERFACES = ("clear", "stained", "refraction_only")
 """what reflection and refraction of a transmitting material look like: docs/architecture.md, section 4"""
-CAMERA_KINDS = ("perspective", "orthographic")
+CAMERA_KINDS = ("perspective", "orthographic", "panorama")
 
 
 @dataclass(slots=True)
@@ -213,9 +213,19 @@ class Camera:
     matrix: Float64
     """(3, 4) camera to world, axes unit and orthogonal"""
     window: tuple[float, float, float, float]
-    """left, right, bottom, top"""
+    """left, right, bottom, top; of a panorama the longitudes (to the right) and latitudes in radians"""
     clip_start: float = 1e-6
     clip_end: float = 1e30
+    aperture: float = 0.0
+    """radius of the thin lens, in metres; 0: everything is sharp. A panorama has none"""
+    focus: float = 1.0
+    """depth of what is sharp"""
+    blades: int = 0
+    """corners of the aperture, on its rim, the first sides to both sides of +x; below 3 a disc"""
+    blade_turn: float = 0.0
+    """radians"""
+    squeeze: float = 1.0
+    """the aperture's width over its height"""
 
 
 @dataclass(slots=True)
@@ -250,6 +260,9 @@ class SceneArrays:
     warnings: list[str] = field(default_factory=list)
 
 
+PIXEL_FILTERS = ("box", "gaussian", "blackman_harris")
+
+
 @dataclass(frozen=True, slots=True)
 class RenderSettings:
     """How to render. Names of devices, accelerators and integrators are those of the command line."""
@@ -262,6 +275,10 @@ class RenderSettings:
     """wall-clock seconds of tracing after which the render stops; 0: no limit"""
     rmse: float = 0.0
     """estimated error of the picture (linear) at which the render stops; 0: no such stop"""
+    pixel_filter: str = "box"
+    """one of PIXEL_FILTERS"""
+    filter_width: float = 1.0
+    """pixels, as Blender means it: a box is so wide, the others taper off beyond"""
     adaptive: bool = False
     """more samples where there is more noise"""
     max_bounces: int = 12

@@ -12,9 +12,10 @@ from .passes import PASS_NAMES
 from .scene_arrays import (
     CAMERA_KINDS,
     LIGHT_KINDS,
+    MATERIAL_FIELDS,
+    PIXEL_FILTERS,
     SHAPES,
     WRAP_MODES,
-    MATERIAL_FIELDS,
     Camera,
     Environment,
     InstanceArrays,
@@ -37,6 +38,11 @@ def check_settings(settings: RenderSettings) -> None:
             raise SceneError(
                 f"the border {settings.border} is empty or leaves the picture of {width} x {height}"
             )
+    if settings.pixel_filter not in PIXEL_FILTERS or not 0.0 < settings.filter_width <= 100.0:
+        raise SceneError(
+            f"the pixel filter is {settings.pixel_filter!r} of {settings.filter_width} pixels: it must be "
+            f"one of {', '.join(PIXEL_FILTERS)}, wider than 0 and up to 100 pixels"
+        )
     if settings.samples < 1:
         raise SceneError(f"samples is {settings.samples}: it must be 1 or more")
     for name in ("seconds", "rmse"):
@@ -72,6 +78,9 @@ def check_camera(camera: Camera) -> None:
         raise SceneError("the camera's matrix is not finite")
     if not np.isfinite(camera.window).all() or left == right or bottom == top:
         raise SceneError(f"the camera sees nothing: its window is {camera.window}")
+    lens = (camera.aperture, camera.focus, camera.blade_turn, camera.squeeze)
+    if not np.isfinite(lens).all() or camera.aperture < 0 or camera.focus <= 0 or camera.squeeze <= 0:
+        raise SceneError(f"the camera's lens is impossible: {lens}")
 
 
 def check_environment(environment: Environment | None) -> None:

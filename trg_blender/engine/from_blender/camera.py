@@ -24,10 +24,11 @@ def read_camera(
     if owner.type != "CAMERA":
         raise SceneError(f"the camera object {owner.name!r} of scene {scene.name!r} is a {owner.type}")
     data = owner.data
+    if data.type == "PANO" and data.panorama_type == "EQUIRECTANGULAR":
+        return _panorama(owner, warnings)
     if data.type not in ("PERSP", "ORTHO"):
-        warnings.append(f"camera {owner.name!r}: type {data.type} is rendered as perspective")
-    if data.dof.use_dof:
-        warnings.append(f"camera {owner.name!r}: depth of field is not rendered")
+        what = data.panorama_type if data.type == "PANO" else data.type
+        warnings.append(f"camera {owner.name!r}: type {what} is rendered as perspective")
     orthographic = data.type == "ORTHO"
     projection = owner.calc_matrix_camera(
         depsgraph,
@@ -36,13 +37,60 @@ def read_camera(
         scale_x=scene.render.pixel_aspect_x,
         scale_y=scene.render.pixel_aspect_y,
     )
-    return Camera(
+    camera = Camera(
         CAMERA_KINDS.index("orthographic" if orthographic else "perspective"),
         _rigid_matrix(owner.matrix_world, owner.name),
         _window(projection, orthographic),
         clip_start=float(data.clip_start),
         clip_end=float(data.clip_end),
     )
+    if data.dof.use_dof:
+        _add_lens(camera, data, depsgraph)
+    return camera
+
+
+def _panorama(owner: bpy.types.Object, warnings: list[str]) -> Camera:
+    data = owner.data
+    if data.dof.use_dof:
+        warnings.append(f"camera {owner.name!r}: depth of field of a panorama is not rendered")
+    return Camera(
+        CAMERA_KINDS.index("panorama"),
+        _rigid_matrix(owner.matrix_world, owner.name),
+        (data.longitude_min, data.longitude_max, data.latitude_min, data.latitude_max),
+        clip_start=float(data.clip_start),
+        clip_end=float(data.clip_end),
+    )
+
+
+SMALLEST_FOCUS = 1e-5
+
+
+def _add_lens(camera: Camera, data: bpy.types.Camera, depsgraph: bpy.types.Depsgraph) -> None:
+    """Blender's depth of field: half the lens over the f-stop; an orthographic lens has one metre."""
+    dof = data.dof
+    lens = 1.0 if data.type == "ORTHO" else data.lens * 1e-3
+    if dof.aperture_fstop <= 0.0:
+        return
+    camera.aperture = 0.5 * lens / dof.aperture_fstop
+    camera.focus = max(_focus_depth(camera, dof, depsgraph), SMALLEST_FOCUS)
+    camera.blades = dof.aperture_blades
+    camera.blade_turn = dof.aperture_rotation
+    camera.squeeze = 1.0 / dof.aperture_ratio if dof.aperture_ratio > 0.0 else 1.0
+
+
+def _focus_depth(
+    camera: Camera, dof: bpy.types.CameraDOFSettings, depsgraph: bpy.types.Depsgraph
+) -> float:
+    """Depth of the focus object (or its bone) along the view, else the distance given."""
+    if dof.focus_object is None:
+        return float(dof.focus_distance)
+    target = dof.focus_object.evaluated_get(depsgraph)
+    matrix = target.matrix_world
+    bone = target.pose.bones.get(dof.focus_subtarget) if target.type == "ARMATURE" and target.pose else None
+    if bone is not None:
+        matrix = matrix @ bone.matrix
+    offset = np.array(matrix.translation, dtype=np.float64) - camera.matrix[:, 3]
+    return float(abs(offset @ camera.matrix[:, 2]))
 
 
 def _rigid_matrix(matrix: Matrix, name: str) -> np.ndarray:
