@@ -19,7 +19,7 @@ enum Feature : uint32_t {
     kLayers = 16,           // coat, sheen, rough diffuse
     kSeeThrough = 32,       // surfaces that let light straight through
     kEnvironment = 512,     // a picture of the world around
-    kPrograms = 16,         // textures that are programs, and normals that they bend
+    kPrograms = 1024,       // textures that are programs, and normals that they bend
 };
 
 TRG_FN constexpr bool has(uint32_t features, Feature feature) {

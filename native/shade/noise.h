@@ -219,7 +219,8 @@ template <int N>
 TRG_FN void shift_noise(const float* p, float seed, float* shifted) {
     for (int k = 0; k < N; ++k) {
         const float key[2] = {seed, static_cast<float>(k)};
-        shifted[k] = p[k] + 100.0f + 100.0f * (N == 1 ? hash_floats<1>(key) : hash_floats<2>(key));
+        shifted[k] =
+            p[k] + (100.0f + 100.0f * (N == 1 ? hash_floats<1>(key) : hash_floats<2>(key)));
     }
 }
 

@@ -14,10 +14,10 @@ TRG_FN float remainder_floor(float a, float b) {
     return a - b * std::floor(a / b);
 }
 
-/// 1 in one kind of cubes, 0 in the other.
+/// 1 in the cubes whose whole coordinates add up to an odd number, 0 in the others.
 TRG_FN float eval_checker(Vec3 p) {
     const float sum = std::floor(nudge(p.x)) + std::floor(nudge(p.y)) + std::floor(nudge(p.z));
-    return remainder_floor(sum, 2.0f) == 0.0f ? 1.0f : 0.0f;
+    return remainder_floor(sum, 2.0f) != 0.0f ? 1.0f : 0.0f;
 }
 
 struct BrickShape {

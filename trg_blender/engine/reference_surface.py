@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from .errors import SceneError
 from .reference_energy import EnergyTables
 from .reference_math import dot, normalize
 from .reference_ggx import IDEAL_ALPHA as IDEAL_ALPHA
@@ -76,6 +77,12 @@ class Surface:
 
 
 def build_material_table(scene: SceneArrays) -> MaterialTable:
+    """Raises SceneError for texture programs and further UV maps, which this renderer has not."""
+    if any(texture.program >= 0 or texture.uv_map > 0 for texture in scene.textures):
+        raise SceneError(
+            "the reference renderer (device embree) shows plain images at the mesh's own UV map alone: "
+            "render node textures on the device cpu"
+        )
     rows = pack_table(scene.materials, MATERIAL_FIELDS).astype(np.float64)
     columns = {name: rows[:, column] for column, name in enumerate(MATERIAL_FIELDS)}
     return MaterialTable(columns, scene, [prepare_image(image) for image in scene.images])

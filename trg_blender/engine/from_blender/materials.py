@@ -24,8 +24,8 @@ class MaterialTable:
     rows: list[Material] = field(default_factory=list)
     textures: TextureTable = field(init=False)
     _index: dict[int, int] = field(default_factory=dict)
-    _uv_maps: dict[int, str] = field(default_factory=dict)
-    """row -> UV map its textures ask for; only textured materials are in"""
+    _attributes: dict[int, frozenset[int]] = field(default_factory=dict)
+    """row -> numbers of the corner attributes that its textures read"""
 
     def __post_init__(self) -> None:
         self.textures = TextureTable(self.warnings)
@@ -40,15 +40,14 @@ class MaterialTable:
             self._finish(len(self.rows) - 1, reader)
         return self._index[key]
 
-    def uv_map_of(self, slot_rows: tuple[int, ...]) -> str | None:
-        """UV map for a mesh with these materials; None when no material has a texture."""
-        return next((self._uv_maps[row] for row in slot_rows if row in self._uv_maps), None)
+    def attributes_of(self, slot_rows: tuple[int, ...]) -> tuple[int, ...]:
+        """Numbers of the corner attributes that a mesh with these materials needs, in order."""
+        wanted: set[int] = set().union(*(self._attributes.get(row, frozenset()) for row in slot_rows))
+        return tuple(sorted(wanted))
 
     def _finish(self, row: int, reader: ShaderReader) -> None:
-        if reader.uv_maps:
-            self._uv_maps[row] = reader.uv_maps[0]
-            if len(set(reader.uv_maps)) > 1:
-                reader.miss(f"UV maps other than {reader.uv_maps[0]!r}")
+        if reader.attributes:
+            self._attributes[row] = frozenset(reader.attributes)
         if reader.missed:
             self.warnings.append(f"{reader.owner}: not supported, nearest used: {'; '.join(reader.missed)}")
 

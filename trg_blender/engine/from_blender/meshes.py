@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene_arrays import Float32, Int32, MeshArrays
+from .mesh_attributes import corner_uvs, read_attributes, texture_space
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,8 +27,9 @@ class MeshRequest:
     slot_count: int
     """material slots; face indices beyond the last slot mean the last slot, as in Cycles"""
     with_uvs: bool = False
-    uv_layer: str = ""
-    """name of a UV map; empty is the one that is active for rendering"""
+    """whether the UV map that is active for rendering is wanted"""
+    attributes: tuple[tuple[int, str], ...] = ()
+    """number and kind:name of further corner attributes"""
     fast: bool = True
 
 
@@ -47,9 +49,11 @@ def read_mesh(mesh: bpy.types.Mesh, request: MeshRequest, warnings: list[str]) -
         vertices=vertices,
         triangles=triangles,
         normals=_corner_normals(mesh, corners, triangles, request.fast),
-        uvs=_corner_uvs(mesh, corners, request, warnings) if request.with_uvs else None,
+        uvs=corner_uvs(mesh, corners, "", warnings) if request.with_uvs else None,
         slots=_triangle_slots(mesh, request.slot_count),
         origin=mesh.name,
+        attributes=read_attributes(mesh, corners, request.attributes, warnings),
+        texture_space=texture_space(mesh),
     )
     return _without_broken_triangles(arrays, warnings)
 
@@ -115,21 +119,6 @@ def _corner_normals(mesh: bpy.types.Mesh, corners: Int32, triangles: Int32, fast
     return np.take(normals, corners, axis=0)
 
 
-def _corner_uvs(
-    mesh: bpy.types.Mesh, corners: Int32, request: MeshRequest, warnings: list[str]
-) -> Float32 | None:
-    layer = mesh.uv_layers.get(request.uv_layer) if request.uv_layer else None
-    if layer is None and request.uv_layer:
-        warnings.append(f"mesh {mesh.name!r} has no UV map {request.uv_layer!r}: its render map is used")
-    if layer is None:
-        layer = next((each for each in mesh.uv_layers if each.active_render), None)
-    if layer is None:
-        return None
-    flat = np.empty(len(mesh.loops) * 2, np.float32)
-    layer.uv.foreach_get("vector", flat)
-    return np.take(flat.reshape(-1, 2), corners, axis=0)
-
-
 def _triangle_slots(mesh: bpy.types.Mesh, slot_count: int) -> Int32 | None:
     """(m,) material slot of each triangle; None when all are slot 0."""
     attribute = mesh.attributes.get("material_index")
@@ -166,4 +155,6 @@ def _without_broken_triangles(arrays: MeshArrays, warnings: list[str]) -> MeshAr
         uvs=None if arrays.uvs is None else arrays.uvs[keep],
         slots=None if arrays.slots is None else arrays.slots[keep],
         origin=arrays.origin,
+        attributes={number: values[keep] for number, values in arrays.attributes.items()},
+        texture_space=arrays.texture_space,
     )

@@ -41,6 +41,8 @@ class Found:
     groups: list[MeshGroup]
     transforms: Float32
     """(n, 3, 4) object to world of every instance of the depsgraph"""
+    randoms: Float32
+    """(n,) what Object Info calls Random, 0 to 1"""
     lights: list[tuple[bpy.types.Object, int]]
     """original-or-evaluated light object and its row in `transforms`"""
 
@@ -50,6 +52,9 @@ def find_objects(depsgraph: bpy.types.Depsgraph, warnings: list[str]) -> Found:
     instances = depsgraph.object_instances
     flat = np.empty(len(instances) * 16, np.float32)
     instances.foreach_get("matrix_world", flat)
+    random_ids = np.empty(len(instances), np.int32)
+    instances.foreach_get("random_id", random_ids)
+    randoms = (random_ids.view(np.uint32) / 4294967295.0).astype(np.float32)
     columns_first = flat.reshape(-1, 4, 4)
     transforms = np.ascontiguousarray(columns_first.transpose(0, 2, 1)[:, :3])
     groups: dict[tuple[int, ...], MeshGroup] = {}
@@ -68,7 +73,7 @@ def find_objects(depsgraph: bpy.types.Depsgraph, warnings: list[str]) -> Found:
         else:
             refused.add(f"object {owner.name!r}: a {KIND_NAMES.get(kind, kind.lower())} is not rendered")
     warnings.extend(sorted(refused))
-    return Found(list(groups.values()), transforms, lights)
+    return Found(list(groups.values()), transforms, randoms, lights)
 
 
 def _add_mesh(

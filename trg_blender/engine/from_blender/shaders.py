@@ -8,7 +8,7 @@ from dataclasses import dataclass, field, replace
 import bpy
 
 from ..scene_arrays import INTERFACES, Color, Material
-from .sockets import as_color, as_number, constant_of, feeding_socket, input_socket
+from .sockets import as_color, as_number, feeding_socket, input_socket
 from .textures import TextureTable
 
 BLACK = Material(0.0, 0.0, 0.0, specular=0.0)
@@ -23,7 +23,8 @@ class ShaderReader:
     owner: str
     textures: TextureTable
     missed: list[str] = field(default_factory=list)
-    uv_maps: list[str] = field(default_factory=list)
+    attributes: set[int] = field(default_factory=set)
+    """numbers of the corner attributes that the textures read"""
 
     def miss(self, what: str) -> None:
         """Notes once that `what` is not rendered."""
@@ -66,18 +67,19 @@ class ShaderReader:
     def _value(self, socket: bpy.types.NodeSocket | None) -> tuple[float | Color, int]:
         if socket is None:
             return 0.0, -1
-        source = feeding_socket(socket)
-        if source is None:
+        if feeding_socket(socket) is None:
             return socket.default_value, -1
-        constant = constant_of(source)
-        if constant is not None:
-            return constant, -1
-        if source.node.type == "TEX_IMAGE" and source.name == "Color":
-            row, uv_map = self.textures.add(source.node, self.owner)
-            self.uv_maps.append(uv_map)
-            return (1.0, 1.0, 1.0), row
-        self.miss(f"node {source.node.name!r} ({source.node.bl_label}) on {socket.name}")
-        return socket.default_value, -1
+        constant, texture = self.textures.read(socket, self.owner, self.attributes)
+        if constant is None:
+            return ((1.0, 1.0, 1.0) if socket.type == "RGBA" else socket.default_value), texture
+        return (constant if len(constant) > 2 else constant[0]), -1
+
+    def normal(self, node: bpy.types.Node) -> int:
+        """Row of the texture that gives the shading normal; -1 where the node's Normal is not linked."""
+        socket = input_socket(node, "Normal")
+        if socket is None or feeding_socket(socket) is None:
+            return -1
+        return self.textures.read(socket, self.owner, self.attributes)[1]
 
     def _add(self, node: bpy.types.Node, depth: int) -> Material:
         """Emission adds exactly; of two scattering shaders the first is kept."""
@@ -112,7 +114,13 @@ def _scatters(row: Material) -> bool:
 def _diffuse(reader: ShaderReader, node: bpy.types.Node) -> Material:
     base, texture = reader.color(node, "Color")
     roughness = _share(reader.plain_number(node, "Roughness"))
-    return Material(*base, specular=0.0, base_texture=texture, diffuse_roughness=roughness)
+    return Material(
+        *base,
+        specular=0.0,
+        base_texture=texture,
+        diffuse_roughness=roughness,
+        normal_texture=reader.normal(node),
+    )
 
 
 def _glossy(reader: ShaderReader, node: bpy.types.Node) -> Material:
@@ -129,6 +137,7 @@ def _glossy(reader: ShaderReader, node: bpy.types.Node) -> Material:
         roughness_texture=roughness_texture,
         metal_grazing=0.0,
         multiscatter=_multiscatter(node),
+        normal_texture=reader.normal(node),
     )
 
 
@@ -158,6 +167,7 @@ def _metallic(reader: ShaderReader, node: bpy.types.Node) -> Material:
         specular_tint_r=tint[0],
         specular_tint_g=tint[1],
         specular_tint_b=tint[2],
+        normal_texture=reader.normal(node),
     )
 
 
@@ -176,6 +186,7 @@ def _glass(reader: ShaderReader, node: bpy.types.Node) -> Material:
         roughness_texture=roughness_texture,
         interface=INTERFACES.index(kind),
         multiscatter=_multiscatter(node),
+        normal_texture=reader.normal(node),
     )
 
 
@@ -207,8 +218,6 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
         socket = node.inputs.get(name)
         if socket is not None and (socket.is_linked or float(socket.default_value) > 0):
             reader.miss(f"{name} of node {node.name!r} (Principled BSDF)")
-    if node.inputs["Normal"].is_linked:
-        reader.miss(f"Normal of node {node.name!r} (Principled BSDF)")
     base, base_texture = reader.color(node, "Base Color")
     roughness, roughness_texture = reader.number(node, "Roughness")
     metallic, metallic_texture = reader.number(node, "Metallic")
@@ -239,6 +248,7 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
         multiscatter=_multiscatter(node),
         alpha=_share(alpha),
         alpha_texture=alpha_texture,
+        normal_texture=reader.normal(node),
     )
 
 

@@ -56,7 +56,9 @@ class SceneReader:
             if light is not None:
                 arrays.lights.append(light)
         arrays.materials = table.rows
-        arrays.textures, arrays.images = table.textures.textures, table.textures.images
+        textures = table.textures
+        arrays.textures, arrays.images = textures.textures, textures.pool.images
+        arrays.programs, arrays.attributes = textures.programs.arrays(), textures.attributes
         arrays.warnings = list(dict.fromkeys(warnings))
         return arrays
 
@@ -73,13 +75,13 @@ class _Meshes:
     table: MaterialTable
     fast: bool
     warnings: list[str]
-    known: dict[tuple[int, int, str | None, str], int] = field(default_factory=dict)
+    known: dict[tuple[int, int, tuple[int, ...], str], int] = field(default_factory=dict)
 
     def add_all(self, found: Found) -> None:
         for group in found.groups:
-            self._add(group, found.transforms[group.rows])
+            self._add(group, found.transforms[group.rows], found.randoms[group.rows])
 
-    def _add(self, group: MeshGroup, transforms: Float32) -> None:
+    def _add(self, group: MeshGroup, transforms: Float32, randoms: Float32) -> None:
         slots = tuple(self.table.add(material) for material in group.materials)
         index = self._mesh(group, slots)
         mesh = self.arrays.meshes[index]
@@ -88,15 +90,18 @@ class _Meshes:
         finite = np.isfinite(transforms).all(axis=(1, 2))
         if not finite.all():
             self.warnings.append(f"object {group.origin!r}: a transform that is not finite is left out")
-            transforms = transforms[finite]
+            transforms, randoms = transforms[finite], randoms[finite]
         volume = np.abs(np.linalg.det(transforms[:, :, :3].astype(np.float64)))
-        solid = transforms[volume > FLAT_DETERMINANT]
+        has_volume = volume > FLAT_DETERMINANT
+        solid = transforms[has_volume]
         materials = np.array(slots, np.int32)
         if len(solid):
             self.arrays.instances.append(
-                InstanceArrays(index, np.ascontiguousarray(solid), materials, group.origin)
+                InstanceArrays(
+                    index, np.ascontiguousarray(solid), materials, group.origin, randoms[has_volume]
+                )
             )
-        for flat in transforms[volume <= FLAT_DETERMINANT]:
+        for flat in transforms[~has_volume]:
             self._add_flat(mesh, flat, materials, group.origin)
 
     def _add_flat(self, mesh: MeshArrays, transform: Float32, materials: np.ndarray, origin: str) -> None:
@@ -105,15 +110,18 @@ class _Meshes:
             return
         vertices = mesh.vertices @ transform[:, :3].T + transform[:, 3]
         baked = MeshArrays(vertices, mesh.triangles, None, mesh.uvs, mesh.slots, mesh.origin)
+        baked.attributes = mesh.attributes
         self.arrays.meshes.append(baked)
         identity = np.eye(3, 4, dtype=np.float32)[None]
         self.arrays.instances.append(InstanceArrays(len(self.arrays.meshes) - 1, identity, materials, origin))
 
     def _mesh(self, group: MeshGroup, slots: tuple[int, ...]) -> int:
-        uv_map = self.table.uv_map_of(slots)
-        key = (group.mesh.as_pointer(), len(slots), uv_map, group.shape)
+        wanted = self.table.attributes_of(slots)
+        key = (group.mesh.as_pointer(), len(slots), wanted, group.shape)
         if key not in self.known:
-            request = MeshRequest(len(slots), uv_map is not None, uv_map or "", self.fast)
+            names = self.table.textures.attributes
+            extra = tuple((number, names[number]) for number in wanted if number)
+            request = MeshRequest(len(slots), 0 in wanted, extra, self.fast)
             self.known[key] = len(self.arrays.meshes)
             mesh = read_mesh(group.mesh, request, self.warnings)
             if is_unedited(mesh, group.shape):
