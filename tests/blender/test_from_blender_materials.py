@@ -129,6 +129,16 @@ def test_emission_adds_to_a_surface(nodes):
     assert table.warnings == []
 
 
+def test_a_mixture_with_transparent_is_partly_there(nodes):
+    mixer = nodes.add("MixShader", Fac=0.25)
+    clear = nodes.add("BsdfTransparent", Color=(1, 0.5, 0, 1))
+    nodes.tree.links.new(clear.outputs[0], mixer.inputs[1])
+    nodes.tree.links.new(nodes.add("BsdfDiffuse").outputs[0], mixer.inputs[2])
+    row, table = nodes.read(mixer)
+    assert (row.alpha, row.through_r, row.through_g, row.through_b) == pytest.approx((0.25, 1.0, 0.5, 0.0))
+    assert row.base_r == pytest.approx(0.8) and table.warnings == []
+
+
 def test_one_warning_names_everything_left_out(nodes):
     surface = nodes.add("BsdfPrincipled", Subsurface_Weight=0.5, Anisotropic=0.5)
     _, table = nodes.read(surface)

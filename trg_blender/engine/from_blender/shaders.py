@@ -98,11 +98,30 @@ class ShaderReader:
         )
 
     def _mix(self, node: bpy.types.Node, depth: int) -> Material:
-        """The weightier shader of a Mix Shader; exact at factors 0 and 1."""
-        factor = self.plain_number(node, node.inputs[0].name)
-        if 0.0 < factor < 1.0:
-            self.miss(f"the lighter shader of node {node.name!r} (Mix Shader)")
-        return self.read_surface(node.inputs[1 if factor < 0.5 else 2], depth + 1)
+        """Exact at factors 0 and 1 and where one shader is Transparent; else the weightier shader."""
+        factor = min(max(self.plain_number(node, node.inputs[0].name), 0.0), 1.0)
+        if not 0.0 < factor < 1.0:
+            return self.read_surface(node.inputs[1 if factor < 0.5 else 2], depth + 1)
+        rows = [self.read_surface(socket, depth + 1) for socket in node.inputs[1:3]]
+        shares = [1.0 - factor, factor]
+        if rows[0].alpha == 0.0 or rows[1].alpha == 0.0:
+            solid = 1 if rows[0].alpha == 0.0 else 0
+            if rows[solid].alpha_texture < 0:
+                return _partly_there(rows[solid], shares[solid], rows[1 - solid])
+        self.miss(f"the lighter shader of node {node.name!r} (Mix Shader)")
+        return rows[0 if factor < 0.5 else 1]
+
+
+def _partly_there(solid: Material, share: float, clear: Material) -> Material:
+    """`share` of `solid`, the rest of `clear`, which is a Transparent BSDF."""
+    alpha = share * solid.alpha
+    own = share * (1.0 - solid.alpha)
+    passed = [
+        own * getattr(solid, name) + (1.0 - share) * getattr(clear, name)
+        for name in ("through_r", "through_g", "through_b")
+    ]
+    red, green, blue = (min(value / (1.0 - alpha), 1.0) for value in passed)
+    return replace(solid, alpha=alpha, through_r=red, through_g=green, through_b=blue)
 
 
 def _scatters(row: Material) -> bool:

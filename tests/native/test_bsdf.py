@@ -1,0 +1,139 @@
+"""The lobes of the native core: energy, densities, reciprocity, at the ends of their parameters."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.native.bsdfs import evaluate, sample, view
+from trg_blender.engine.scene_arrays import Material
+
+WHITE = {"base_r": 1.0, "base_g": 1.0, "base_b": 1.0}
+KINDS = {
+    "metal": {"metallic": 1.0},
+    "plastic": {},
+    "plastic of a high index": {"ior": 3.0},
+    "glass": {"transmission": 1.0},
+    "glass from inside": {"transmission": 1.0},
+    "coat": {"coat": 1.0, "coat_roughness": 0.3},
+    "sheen": {"sheen_r": 1.0, "sheen_g": 1.0, "sheen_b": 1.0},
+    "rough diffuse": {"specular": 0.0, "diffuse_roughness": 1.0},
+    "all": {"metallic": 0.3, "transmission": 0.4, "coat": 0.5, "coat_roughness": 0.2, "sheen_g": 0.5},
+}
+ROUGHNESSES = (0.0, 1e-4, 1e-2, 0.1, 0.5, 1.0)
+ANGLES = (0.0, 45.0, 80.0, 89.99)
+COUNT = 60_000
+
+
+def is_outside(kind: str) -> bool:
+    return "inside" not in kind
+
+
+@pytest.mark.parametrize("roughness", ROUGHNESSES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_white_surface_in_white_light_is_white(kind: str, roughness: float):
+    """Where nothing is absorbed energy is 1; tables of albedo are good to 1e-3."""
+    for angle in ANGLES:
+        material = Material(**WHITE, roughness=roughness, **KINDS[kind])
+        drawn = sample(material, view(angle), 2 * COUNT, is_outside(kind))
+        assert np.isfinite(drawn.weight).all() and (drawn.weight >= 0.0).all()
+        weight = drawn.weight.max(axis=1) if kind == "all" else drawn.weight[:, 0]
+        noise = weight.std() / np.sqrt(len(weight))
+        low = 0.98 if kind == "all" else 1.0 - 1e-3
+        assert low - 4.0 * noise < weight.mean() < 1.0 + 1e-3 + 4.0 * noise, (angle, weight.mean(), noise)
+
+
+RINGS, SECTORS, FINE = 32, 16, 12
+"""Bins of the facet's slope, by arctangent of the root of its length and by azimuth, and points along a side of each."""
+
+
+def facet_bins(wo: np.ndarray, wi: np.ndarray, eta: float, alpha: float) -> np.ndarray:
+    """Number of the bin of the facet that sends `wo` to each of `wi`: reflections first."""
+    up = wi[:, 2] > 0.0
+    h = np.where(up[:, None], wo + wi, wo + eta * wi)
+    h = h * np.sign(h[:, 2:])
+    slope = np.hypot(h[:, 0], h[:, 1]) / np.maximum(h[:, 2], 1e-300)
+    ring = np.minimum((np.arctan(np.sqrt(slope / alpha)) / (0.5 * np.pi) * RINGS).astype(int), RINGS - 1)
+    turn = np.arctan2(h[:, 1], h[:, 0]) / (2.0 * np.pi) % 1.0
+    return (np.where(up, 0, RINGS) + ring) * SECTORS + np.minimum((turn * SECTORS).astype(int), SECTORS - 1)
+
+
+def expected_shares(
+    material: Material, wo: np.ndarray, outside: bool, eta: float, alpha: float
+) -> np.ndarray:
+    """(bins,) integral of the density over each bin of `facet_bins`."""
+    wo = wo.astype(np.float64)
+    ring = (np.arange(RINGS * FINE) + 0.5) / (RINGS * FINE) * 0.5 * np.pi
+    turn = (np.arange(SECTORS * FINE) + 0.5) / (SECTORS * FINE) * 2.0 * np.pi
+    ring, turn = np.meshgrid(ring, turn, indexing="ij")
+    slope = alpha * np.tan(ring) ** 2
+    h = np.stack([slope * np.cos(turn), slope * np.sin(turn), np.ones_like(slope)], axis=-1)
+    h = (h / np.sqrt(1.0 + slope * slope)[..., None]).reshape(-1, 3)
+    # Solid angle of facets a grid cell, from the measure of slopes and of the rings.
+    cell = (slope * alpha * 2.0 * np.tan(ring) / np.cos(ring) ** 2).ravel() * h[:, 2] ** 3
+    cell *= 0.5 * np.pi / (RINGS * FINE) * 2.0 * np.pi / (SECTORS * FINE)
+    c = h @ wo
+    bend = np.sqrt(np.maximum(0.0, 1.0 - (1.0 - c * c) / eta**2))
+    ways = [
+        (2.0 * c[:, None] * h - wo, 1.0, 4.0 * np.abs(c)),
+        (
+            (c / eta - bend)[:, None] * h - wo / eta,
+            -1.0,
+            (c - eta * bend) ** 2 / (eta**2 * np.maximum(bend, 1e-9)),
+        ),
+    ]
+    shares = []
+    for wi, side, jacobian in ways:
+        there = (c > 0.0) & (side * wi[:, 2] > 0.0) & ((side > 0.0) | (bend > 0.0))
+        _, pdf = evaluate(material, wo, wi, outside)
+        mass = np.where(there, pdf * jacobian * cell, 0.0).reshape(RINGS, FINE, SECTORS, FINE)
+        shares.append(mass.sum(axis=(1, 3)).ravel())
+    return np.concatenate(shares)
+
+
+def chi_square_score(found: np.ndarray, expected: np.ndarray) -> float:
+    """Standard normal score of a chi-square statistic (Wilson and Hilferty 1931), small bins pooled."""
+    order = np.argsort(expected)
+    cumulative = np.cumsum(expected[order])
+    group = np.minimum((cumulative / 25.0).astype(int), 10**6)
+    keys = np.unique(group, return_inverse=True)[1]
+    e, o = np.bincount(keys, expected[order]), np.bincount(keys, found[order])
+    kept = e > 5.0
+    e, o = e[kept], o[kept]
+    degrees = max(len(e) - 1, 1)
+    ratio = float(((o - e) ** 2 / e).sum()) / degrees
+    return (ratio ** (1 / 3) - (1 - 2 / (9 * degrees))) / np.sqrt(2 / (9 * degrees))
+
+
+@pytest.mark.parametrize("roughness", ROUGHNESSES)
+@pytest.mark.parametrize("kind", KINDS)
+def test_samples_follow_their_density(kind: str, roughness: float):
+    """Chi-square at 1e-4 over all of the cases (Bonferroni); deltas and absorbed samples count for nothing."""
+    for angle in ANGLES:
+        material = Material(**WHITE, roughness=roughness, **KINDS[kind])
+        wo, outside = view(angle), is_outside(kind)
+        drawn = sample(material, wo, COUNT, outside)
+        kept = drawn.pdf > 0.0
+        if kept.mean() < 1e-3:
+            continue
+        alpha = roughness**2 if roughness > 0.05 else 0.5
+        eta = material.ior if outside else 1.0 / material.ior
+        bins = facet_bins(wo, drawn.wi[kept], eta, alpha)
+        found = np.bincount(bins, minlength=2 * RINGS * SECTORS)
+        expected = expected_shares(material, wo, outside, eta, alpha) * COUNT
+        assert expected.sum() == pytest.approx(kept.sum(), rel=0.01, abs=5.0 * np.sqrt(COUNT))
+        # One-sided normal quantile of 1e-4 / 216.
+        assert chi_square_score(found, expected) < 5.0, angle
+
+
+@pytest.mark.parametrize("roughness", [0.1, 0.5, 1.0])
+def test_single_scattering_is_reciprocal(roughness: float):
+    """Value over cosine is the same both ways; scaling by albedo and layers are not meant to be."""
+    material = Material(0.9, 0.5, 0.3, metallic=1.0, roughness=roughness, multiscatter=0.0)
+    rng = np.random.default_rng(3)
+    a, b = (rng.normal(size=(2000, 3)) for _ in range(2))
+    a[:, 2], b[:, 2] = np.abs(a[:, 2]) + 1e-3, np.abs(b[:, 2]) + 1e-3
+    a, b = ((v / np.linalg.norm(v, axis=1, keepdims=True)).astype(np.float32) for v in (a, b))
+    there, _ = evaluate(material, a, b)
+    back, _ = evaluate(material, b, a)
+    assert there / b[:, 2:] == pytest.approx(back / a[:, 2:], rel=2e-4)
