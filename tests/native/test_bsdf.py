@@ -44,7 +44,7 @@ def test_a_white_surface_in_white_light_is_white(kind: str, roughness: float):
 
 
 RINGS, SECTORS, FINE = 32, 16, 12
-"""Bins of the facet's slope, by arctangent of the root of its length and by azimuth, and points along a side of each."""
+"""Bins of the facet's slope, by arctangent of the root of its length and by azimuth; points along a side."""
 
 
 def facet_bins(wo: np.ndarray, wi: np.ndarray, eta: float, alpha: float) -> np.ndarray:
@@ -108,7 +108,7 @@ def chi_square_score(found: np.ndarray, expected: np.ndarray) -> float:
 @pytest.mark.parametrize("roughness", ROUGHNESSES)
 @pytest.mark.parametrize("kind", KINDS)
 def test_samples_follow_their_density(kind: str, roughness: float):
-    """Chi-square at 1e-4 over all of the cases (Bonferroni); deltas and absorbed samples count for nothing."""
+    """Chi-square at 1e-4 over all of the cases (Bonferroni); deltas and absorbed samples are left out."""
     for angle in ANGLES:
         material = Material(**WHITE, roughness=roughness, **KINDS[kind])
         wo, outside = view(angle), is_outside(kind)
