@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 
+from ..reference_patterns import hash_words
 from ..scene_arrays import Float32
 from .shapes import claimed_shape
 
@@ -66,6 +67,8 @@ def find_objects(depsgraph: bpy.types.Depsgraph, warnings: list[str]) -> Found:
         if not instance.show_self or kind in WITHOUT_SURFACE:
             continue
         if kind == "MESH":
+            if not instance.is_instance:
+                randoms[row] = _random_of_name(owner.name)
             _add_mesh(groups, owner, row, warnings)
         elif kind == "LIGHT":
             source = instance.instance_object if instance.is_instance else owner
@@ -91,3 +94,12 @@ def _add_mesh(
         if not owner.visible_camera:
             warnings.append(f"object {owner.name!r}: visibility by kind of ray is not supported")
     group.rows.append(row)
+
+
+def _random_of_name(name: str) -> float:
+    """What Cycles gives an object that no instancer made, 0 to 1."""
+    mixed = 0
+    for byte in name.encode():
+        mixed = (mixed * 37 + byte) & 0xFFFFFFFF
+    words = [np.array([mixed], np.uint32), np.zeros(1, np.uint32)]
+    return float(hash_words(words)[0]) / 4294967295.0
