@@ -3,15 +3,31 @@
 
 namespace trg {
 
-const std::vector<const char*> kLightFields = {
-    "kind",           "color_r",          "color_g",
-    "color_b",        "position_x",       "position_y",
-    "position_z",     "direction_x",      "direction_y",
-    "direction_z",    "axis_u_x",         "axis_u_y",
-    "axis_u_z",       "axis_v_x",         "axis_v_y",
-    "axis_v_z",       "radius",           "angle",
-    "cos_outer",      "cos_inner",        "falloff_constant",
-    "falloff_linear", "falloff_quadratic"};
+const std::vector<const char*> kLightFields = {"kind",
+                                               "color_r",
+                                               "color_g",
+                                               "color_b",
+                                               "position_x",
+                                               "position_y",
+                                               "position_z",
+                                               "direction_x",
+                                               "direction_y",
+                                               "direction_z",
+                                               "axis_u_x",
+                                               "axis_u_y",
+                                               "axis_u_z",
+                                               "axis_v_x",
+                                               "axis_v_y",
+                                               "axis_v_z",
+                                               "radius",
+                                               "angle",
+                                               "cos_outer",
+                                               "cos_inner",
+                                               "falloff_constant",
+                                               "falloff_linear",
+                                               "falloff_quadratic",
+                                               "spread",
+                                               "soft"};
 
 namespace {
 
@@ -21,7 +37,7 @@ constexpr float kPointSun = 1e-4f;
 /// What of a row serves to make the light ready, and is not kept.
 struct LightRow {
     Light light;
-    float angle;
+    float angle, spread;
 };
 
 LightRow read_light(TableRow& row) {
@@ -38,6 +54,8 @@ LightRow read_light(TableRow& row) {
     light.cos_outer = row.next();
     light.cos_inner = row.next();
     for (float& coefficient : light.falloff) coefficient = row.next();
+    read.spread = row.next(0.0f, 3.1416f);
+    light.soft = row.next_share() > 0.5f;
     light.direction = normalize_safe(light.direction);
     if (is_black(light.direction) && light.kind != LightKind::point) row.fail("has no direction");
     return read;
@@ -57,6 +75,17 @@ void prepare_point(Light& light) {
     light.inverse_square = f[0] == 0.0f && f[1] == 0.0f && f[2] == 1.0f;
     light.extended = light.inverse_square && light.radius > 0.0f;
     if (light.extended) light.color = light.color / (kPi * light.radius * light.radius);
+}
+
+/// As Blender: the tangent of the angle off the axis takes light away, all of it at half the
+/// spread, and the power stays the same.
+void prepare_spread(Light& light, float spread) {
+    constexpr double kSmallestHalf = 1e-3;
+    light.spread = spread < kPi - 1e-4f;
+    if (!light.spread) return;
+    const double half = std::fmax(0.5 * spread, kSmallestHalf);
+    light.spread_tangent = static_cast<float>(std::tan(half));
+    light.spread_scale = static_cast<float>(1.0 / (std::tan(half) - half));
 }
 
 void prepare_area(Light& light) {
@@ -83,6 +112,7 @@ void set_lights(ShadingTables& tables, const Table& table) {
                 break;
             default:
                 prepare_area(read.light);
+                prepare_spread(read.light, read.spread);
         }
         if (!is_finite(read.light.color)) row.fail("has a colour too large for its extent");
         lights.push_back(read.light);

@@ -25,6 +25,9 @@ struct Light {
     float chord2;       // sun: squared chord from the centre of the disc to its rim
     float cos_outer, cos_inner;
     float falloff[3];
+    bool soft;    // point, spot: a disc that faces whoever it lights
+    bool spread;  // area: shines into a cone only
+    float spread_tangent, spread_scale;
 };
 
 /// A direction towards a light. `light` is radiance over density (or, for a delta, irradiance on a
@@ -46,6 +49,13 @@ TRG_FN float eval_spot(const Light& light, Vec3 travel) {
     if (!(width > 0.0f)) return above > 0.0f ? 1.0f : 0.0f;
     const float t = clamp01(above / width);
     return t * t * (3.0f - 2.0f * t);
+}
+
+/// Share of an area light's radiance that leaves it at `cosine` to its axis.
+TRG_FN float eval_spread(const Light& light, float cosine) {
+    if (!light.spread) return 1.0f;
+    const float tangent = std::sqrt(larger(0.0f, 1.0f - cosine * cosine)) / cosine;
+    return larger(light.spread_tangent - tangent, 0.0f) * light.spread_scale;
 }
 
 /// Half of the unit cone of squared chord `chord2` around `axis`, uniform by solid angle.
@@ -130,7 +140,29 @@ TRG_FN bool sample_area(const Light& light, Vec3 p, Sample2 uv, LightSample* sam
     const float cosine = -dot(sample->wi, light.direction);
     if (!(cosine > 0.0f)) return false;
     sample->pdf = d2 / (cosine * light.area);
-    sample->light = light.color * (1.0f / sample->pdf);
+    sample->light = light.color * (eval_spread(light, cosine) / sample->pdf);
+    return true;
+}
+
+/// Density, by solid angle from `p`, of the disc about `to` where the ray along `wi` meets it.
+TRG_FN float soft_density(const Light& light, Vec3 to, Vec3 wi, float distance) {
+    const float cosine = dot(to, wi) / length(to);
+    return distance * distance / (cosine * kPi * light.radius * light.radius);
+}
+
+TRG_FN bool sample_soft(const Light& light, Vec3 p, Sample2 uv, LightSample* sample) {
+    const Vec3 to = light.position - p;
+    const float away = length(to);
+    if (!(away > 0.0f)) return false;
+    const Frame frame = make_frame(to / away);
+    float a, b;
+    sample_disc(uv.u, uv.v, &a, &b);
+    const Vec3 at = to + (frame.s * a + frame.t * b) * light.radius;
+    sample->distance = length(at);
+    sample->wi = at / sample->distance;
+    sample->pdf = soft_density(light, to, sample->wi, sample->distance);
+    if (!(sample->pdf > 0.0f)) return false;
+    sample->light = light.color * (eval_spot(light, -sample->wi) / sample->pdf);
     return true;
 }
 
@@ -141,6 +173,7 @@ TRG_FN bool sample_light(const Light& light, Vec3 p, Sample2 uv, LightSample* sa
             return sample_sun(light, uv, sample);
         case LightKind::point:
         case LightKind::spot:
+            if (light.extended && light.soft) return sample_soft(light, p, uv, sample);
             return light.extended ? sample_sphere(light, p, uv, sample)
                                   : sample_delta_point(light, p, sample);
         default:
@@ -169,8 +202,20 @@ TRG_FN bool intersect_area_light(const Light& light, Vec3 p, Vec3 wi, float t_ma
                             ? a * a + b * b <= 1.0f
                             : std::fabs(a) <= 1.0f && std::fabs(b) <= 1.0f;
     if (!inside) return false;
-    hit->radiance = light.color;
+    hit->radiance = light.color * eval_spread(light, cosine);
     hit->pdf = t * t / (cosine * light.area);
+    return true;
+}
+
+TRG_FN bool intersect_soft_light(const Light& light, Vec3 p, Vec3 wi, float t_max, LightHit* hit) {
+    const Vec3 to = light.position - p;
+    const float along = dot(to, wi);
+    if (!(along > 0.0f)) return false;
+    const float t = dot(to, to) / along;
+    const Vec3 off = wi * t - to;
+    if (!(t < t_max) || dot(off, off) > light.radius * light.radius) return false;
+    hit->radiance = light.color * eval_spot(light, -wi);
+    hit->pdf = soft_density(light, to, wi, t);
     return true;
 }
 
@@ -184,6 +229,7 @@ TRG_FN bool intersect_light(const Light& light, Vec3 p, Vec3 wi, float t_max, Li
     }
     if (light.kind == LightKind::rectangle || light.kind == LightKind::ellipse)
         return intersect_area_light(light, p, wi, t_max, hit);
+    if (light.soft) return intersect_soft_light(light, p, wi, t_max, hit);
     float t;
     if (!intersect_sphere_light(light, p, wi, &t) || !(t < t_max)) return false;
     const Vec3 to = light.position - p;

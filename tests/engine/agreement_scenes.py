@@ -103,6 +103,8 @@ LIGHTS = {
         cos_inner=0.95,
     ),
     "rectangle": KEY,
+    "point_soft": light("point", (3, 2, 2), (0.9, 0.6, 1.6), radius=0.4, soft=1.0),
+    "spread": replace(KEY, spread=1.6),
     "ellipse": light(
         "area_ellipse",
         (9, 8, 7),

@@ -136,12 +136,37 @@ def sample_bulb(light: Light, points: Float64, rng: np.random.Generator) -> Ligh
         return LightSample(
             towards, distance, strength[:, None] * color_of(light), np.full(len(points), np.inf)
         )
+    if light.soft > 0.5:
+        return sample_soft(light, points, rng)
     one_minus_cos = sphere_cone(light, distance)
     wi = build_frame(towards).to_world(sample_cone(rng, one_minus_cos))
     hit = hit_bulb(light, points, wi, np.full(len(points), np.inf))
     along = np.maximum(0.0, dot(wi, offset) - light.radius)
     pdf = np.where(distance > light.radius, 1.0 / cone_solid_angle(one_minus_cos), np.inf)
     return LightSample(wi, along, sphere_radiance(light, wi) / pdf[:, None] * (hit.pdf > 0.0)[:, None], pdf)
+
+
+def sample_soft(light: Light, points: Float64, rng: np.random.Generator) -> LightSample:
+    """A point of the disc that faces each of `points`."""
+    offset = position_of(light) - points
+    away = np.maximum(np.linalg.norm(offset, axis=1), 1e-300)
+    frame = build_frame(offset / away[:, None])
+    reach, angle = np.sqrt(rng.random(len(points))), 2.0 * np.pi * rng.random(len(points))
+    local = np.stack([reach * np.cos(angle), reach * np.sin(angle), 0.0 * reach], axis=1) * light.radius
+    place = offset + frame.to_world(local)
+    distance = np.linalg.norm(place, axis=1)
+    wi = place / distance[:, None]
+    pdf = distance**3 / (away * np.pi * light.radius**2)
+    return LightSample(wi, distance, sphere_radiance(light, wi) / pdf[:, None], pdf)
+
+
+def hit_soft(light: Light, origin: Float64, direction: Float64, t_surface: Float64) -> LightHit:
+    offset = position_of(light) - origin
+    away, along = np.linalg.norm(offset, axis=1), dot(offset, direction)
+    t = np.where(along > 0.0, away * away / np.where(along > 0.0, along, 1.0), np.inf)
+    seen = (t < t_surface) & (t * t - away * away <= light.radius**2)
+    pdf = np.where(seen, t**3 / (away * np.pi * light.radius**2), 0.0)
+    return LightHit(np.where(seen[:, None], sphere_radiance(light, direction), 0.0), pdf)
 
 
 def attenuation(light: Light, distance: Float64) -> Float64:
@@ -168,6 +193,8 @@ def sphere_radiance(light: Light, direction: Float64) -> Float64:
 
 def hit_bulb(light: Light, origin: Float64, direction: Float64, t_surface: Float64) -> LightHit:
     """The near side of the sphere; from inside nothing is seen, the sphere shines outwards."""
+    if light.soft > 0.5:
+        return hit_soft(light, origin, direction, t_surface)
     offset = position_of(light) - origin
     distance = np.linalg.norm(offset, axis=1)
     along = dot(offset, direction)
@@ -191,6 +218,16 @@ def area_axes(light: Light) -> tuple[Float64, Float64, float]:
     return u, v, shape * float(np.linalg.norm(np.cross(u, v)))
 
 
+def spread_share(light: Light, cosine: Float64) -> Float64:
+    """(n,) radiance over colour at `cosine` to the axis (Blender's spread)."""
+    if light.spread >= np.pi - 1e-4:
+        return np.ones_like(cosine)
+    half = max(0.5 * light.spread, 1e-3)
+    safe = np.clip(cosine, 1e-12, 1.0)
+    tangent = np.sqrt(1.0 - safe * safe) / safe
+    return np.maximum(np.tan(half) - tangent, 0.0) / (np.tan(half) - half)
+
+
 def sample_area(light: Light, points: Float64, rng: np.random.Generator) -> LightSample:
     u, v, area = area_axes(light)
     first, second = rng.random(len(points)), rng.random(len(points))
@@ -205,7 +242,8 @@ def sample_area(light: Light, points: Float64, rng: np.random.Generator) -> Ligh
     facing = np.maximum(0.0, -wi @ direction_of(light))
     over_pdf = facing * area / np.maximum(distance * distance, 1e-300)
     pdf = 1.0 / np.maximum(over_pdf, 1e-300)
-    return LightSample(wi, distance, over_pdf[:, None] * color_of(light), pdf)
+    shares = spread_share(light, facing)
+    return LightSample(wi, distance, (over_pdf * shares)[:, None] * color_of(light), pdf)
 
 
 def hit_area(light: Light, origin: Float64, direction: Float64, t_surface: Float64) -> LightHit:
@@ -221,7 +259,7 @@ def hit_area(light: Light, origin: Float64, direction: Float64, t_surface: Float
         within = (np.abs(a) <= 1.0) & (np.abs(b) <= 1.0)
     seen = within & (facing > 0.0) & (t > 0.0) & (t < t_surface)
     pdf = np.where(seen, t * t / np.maximum(facing * area, 1e-300), 0.0)
-    return LightHit(seen[:, None] * color_of(light), pdf)
+    return LightHit((seen * spread_share(light, facing))[:, None] * color_of(light), pdf)
 
 
 def in_axes(place: Float64, u: Float64, v: Float64) -> tuple[Float64, Float64]:

@@ -191,6 +191,10 @@ class Light:
     falloff_constant: float = 0.0
     falloff_linear: float = 0.0
     falloff_quadratic: float = 1.0
+    spread: float = 3.141592653589793
+    """area: full angle of the cone that it shines into, radians; pi is all of its side"""
+    soft: float = 0.0
+    """point and spot: 1 for a disc that faces whoever it lights instead of a sphere"""
 
 
 MATERIAL_FIELDS = tuple(f.name for f in fields(Material))

@@ -96,6 +96,7 @@ def _bulb(owner: bpy.types.Object, color: Color, matrix: Matrix) -> Light:
     row = Light(LIGHT_KINDS.index("point"), *_scaled(color, 1.0 / (4.0 * math.pi)))
     row.position_x, row.position_y, row.position_z = (float(x) for x in matrix.translation)
     row.radius = radius
+    row.soft = float(bool(light.use_soft_falloff) and radius > 0.0)
     row.falloff_constant, row.falloff_linear, row.falloff_quadratic = falloff
     if light.type == "SPOT":
         row.kind = LIGHT_KINDS.index("spot")
@@ -127,8 +128,6 @@ def _area(
     if size <= 0:
         warnings.append(f"light {name!r}: an area light without area gives no light")
         return None
-    if light.spread < math.pi - 1e-4:
-        warnings.append(f"light {name!r}: spread below 180 degrees is rendered as 180 degrees")
     watts = color if getattr(light, "normalize", True) else _scaled(color, size)
     row = Light(
         LIGHT_KINDS.index("area_ellipse" if round_shape else "area_rectangle"),
@@ -136,6 +135,7 @@ def _area(
         direction_x=shines[0],
         direction_y=shines[1],
         direction_z=shines[2],
+        spread=min(max(float(light.spread), 0.0), math.pi),
     )
     row.position_x, row.position_y, row.position_z = (float(x) for x in matrix.translation)
     row.axis_u_x, row.axis_u_y, row.axis_u_z = (float(x) for x in half_u)
