@@ -20,6 +20,7 @@ DONE, WRONG, USAGE, CANCELLED, UNAVAILABLE = range(5)
 
 COMMANDS = {
     "render": "render a TRG program or a .blend file to a picture",
+    "report": "error against run time: curves and a page",
     "run": "run a TRG program alone: its output and diagnostics",
     "check": "diagnostics of a TRG program, one a line",
     "repl": "TRG line by line",

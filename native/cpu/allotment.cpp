@@ -78,7 +78,8 @@ std::vector<TileTask> Allotment::make_tasks() {
         for (int half = 0; half < 2; ++half)
             if (state.wanted[half] <= state.reached) settle(index, half);
         if (target > state.reached)
-            tasks.push_back({index, target, {state.wanted[0] == target, state.wanted[1] == target}});
+            tasks.push_back(
+                {index, target, {state.wanted[0] == target, state.wanted[1] == target}});
     }
     return tasks;
 }
@@ -200,7 +201,8 @@ void Allotment::want_double(int half, const std::vector<Candidate>& order, doubl
 
 void Allotment::choose_evenly(int half) {
     for (TileState& tile : tiles_) {
-        const uint32_t next = rule_.adaptive ? 2 * tile.wanted[half] : grow_evenly(tile.wanted[half]);
+        const uint32_t next =
+            rule_.adaptive ? 2 * tile.wanted[half] : grow_evenly(tile.wanted[half]);
         tile.wanted[half] = std::min(next, rule_.samples);
     }
 }

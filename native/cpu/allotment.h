@@ -1,8 +1,8 @@
-/// Who gets how many samples when a render may stop by its error: two halves of the replicates, each
-/// of which is told by the other how far to go.
+/// Who gets how many samples when a render may stop by its error: two halves of the replicates,
+/// each of which is told by the other how far to go.
 ///
-/// Half A (replicates 0 to 3) of a tile goes on from n to 2 n samples a replicate when the spread of
-/// half B's replicates at n says that it pays, and the other way round. So how many samples of A
+/// Half A (replicates 0 to 3) of a tile goes on from n to 2 n samples a replicate when the spread
+/// of half B's replicates at n says that it pays, and the other way round. So how many samples of A
 /// count is a function of B's random numbers alone, A's mean is independent of it and keeps its
 /// expectation, and the picture, the plain mean of both halves, is unbiased; the spread of A's
 /// replicates still estimates A's variance without bias. docs/decisions/stopping.md has the proof.
@@ -16,9 +16,9 @@ namespace trg {
 
 /// When a render may stop before it has all its samples.
 struct StopRule {
-    double rmse = 0.0;       // of the picture, linear; 0: never
-    bool adaptive = false;   // tiles with more noise get more samples
-    uint32_t samples = 0;    // most that a replicate gets
+    double rmse = 0.0;      // of the picture, linear; 0: never
+    bool adaptive = false;  // tiles with more noise get more samples
+    uint32_t samples = 0;   // most that a replicate gets
 };
 
 /// Takes one tile on to `target` samples a replicate; `counts` says which halves count them.

@@ -98,8 +98,8 @@ PixelSums Film::counted(const Tile& tile, int32_t slot) const {
         found.counts[r] = static_cast<double>(replicate_count(tile.samples_done, r));
         if (half.live) continue;
         const HalfSnapshot& kept = half.snapshots.front();
-        found.sums[r] =
-            &kept.sums[(slot * kHalfReplicates + r % kHalfReplicates) * static_cast<size_t>(channels_)];
+        found.sums[r] = &kept.sums[(slot * kHalfReplicates + r % kHalfReplicates) *
+                                   static_cast<size_t>(channels_)];
         found.counts[r] = kept.samples;
     }
     return found;
@@ -132,7 +132,8 @@ void Film::read_combined(float* out) const {
             const int64_t at = index_of(tile.pixels[slot]);
             double mean[4] = {0.0, 0.0, 0.0, 0.0};
             if (used > 0)
-                mean_of(counted(tile, static_cast<int32_t>(slot)), {used, channels_, halved()}, mean);
+                mean_of(counted(tile, static_cast<int32_t>(slot)), {used, channels_, halved()},
+                        mean);
             for (int c = 0; c < 3; ++c) out[4 * at + c] = static_cast<float>(mean[c]);
             out[4 * at + 3] = layout_.passes.alpha ? static_cast<float>(mean[3]) : 1.0f;
         }

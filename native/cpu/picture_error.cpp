@@ -10,7 +10,41 @@ namespace {
 struct Totals {
     double variance = 0.0, relative = 0.0;
     double delete_one[kReplicates] = {};
+    double halves = 0.0, products = 0.0;
 };
+
+/// Covariance of the channels of the mean of replicates [first, last): xx, xy, xz, yy, yz, zz.
+struct Covariance {
+    double entry[6];
+};
+
+Covariance covariance_between(const PixelSums& at, int first, int last) {
+    double n = 0.0, mean[3] = {0.0, 0.0, 0.0};
+    for (int r = first; r < last; ++r) {
+        n += at.counts[r];
+        for (int c = 0; c < 3; ++c) mean[c] += at.sums[r][c];
+    }
+    Covariance found{};
+    for (int r = first; r < last; ++r) {
+        double off[3];
+        for (int c = 0; c < 3; ++c) off[c] = at.sums[r][c] / at.counts[r] - mean[c] / n;
+        const double share = at.counts[r] / ((last - first - 1) * n);
+        int k = 0;
+        for (int c = 0; c < 3; ++c)
+            for (int d = c; d < 3; ++d) found.entry[k++] += share * off[c] * off[d];
+    }
+    return found;
+}
+
+/// Adds the variance of a pixel as two halves of the replicates tell it, and the product of what
+/// they tell of its channels.
+void add_halves(const PixelSums& at, int replicates, Totals* totals) {
+    constexpr double kTimes[6] = {1.0, 2.0, 2.0, 1.0, 2.0, 1.0};
+    const Covariance a = covariance_between(at, 0, replicates / 2);
+    const Covariance b = covariance_between(at, replicates / 2, replicates);
+    for (int k = 0; k < 6; ++k) totals->products += kTimes[k] * a.entry[k] * b.entry[k];
+    for (int k : {0, 3, 5}) totals->halves += 0.5 * (a.entry[k] + b.entry[k]);
+}
 
 /// Adds one channel of a pixel whose replicates count `n` samples together.
 void add_value(const PixelSums& at, int channel, int replicates, Totals* totals) {
@@ -81,6 +115,7 @@ PictureError measure_error(const Film& film) {
         const std::lock_guard<std::mutex> hold(tile.lock);
         for (size_t slot = 0; slot < tile.pixels.size(); ++slot) {
             const PixelSums at = film.counted(tile, static_cast<int32_t>(slot));
+            if (error.replicates >= 4) add_halves(at, error.replicates, &totals);
             for (int c = 0; c < 3; ++c)
                 if (film.halved())
                     add_halved_value(at, c, &totals);
@@ -91,6 +126,8 @@ PictureError measure_error(const Film& film) {
     const double values = 3.0 * film.width() * film.height();
     error.mse = totals.variance / values;
     error.relmse = totals.relative / values;
+    if (totals.halves > 0.0)
+        error.normal_spread = totals.products / (totals.halves * totals.halves);
     if (error.replicates >= 3)
         for (int r = 0; r < error.replicates; ++r)
             error.delete_one_mse.push_back(totals.delete_one[r] / values);

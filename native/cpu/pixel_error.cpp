@@ -10,7 +10,8 @@ namespace trg {
 namespace {
 
 constexpr int32_t kReach = 2, kWideReach = 4;  // of the neighbourhoods, in pixels
-/// Of the squared deviations of eight replicates one alone makes 7/8 at most, 0.45 when they are normal.
+/// Of the squared deviations of eight replicates one alone makes 7/8 at most, 0.45 when they are
+/// normal.
 constexpr double kLonelyShare = 0.8;
 
 /// Two-sided 95 % points of Student's t by degrees of freedom.
@@ -37,7 +38,8 @@ double variance_of_mean(const PixelSums& at, const double* means, int replicates
             const double* first = means + half * kHalfReplicates;
             double mean = 0.0, spread = 0.0;
             for (int r = 0; r < kHalfReplicates; ++r) mean += first[r] / kHalfReplicates;
-            for (int r = 0; r < kHalfReplicates; ++r) spread += (first[r] - mean) * (first[r] - mean);
+            for (int r = 0; r < kHalfReplicates; ++r)
+                spread += (first[r] - mean) * (first[r] - mean);
             total += spread / (kHalfReplicates - 1);
         }
         return total / (2.0 * kReplicates);
@@ -81,14 +83,14 @@ std::vector<PixelSpread> spread_of_film(const Film& film, int replicates) {
         Tile& tile = film.tile(index);
         const std::lock_guard<std::mutex> hold(tile.lock);
         for (size_t slot = 0; slot < tile.pixels.size(); ++slot)
-            spreads[film.index_of(tile.pixels[slot])] =
-                spread_of(film.counted(tile, static_cast<int32_t>(slot)), replicates, film.halved());
+            spreads[film.index_of(tile.pixels[slot])] = spread_of(
+                film.counted(tile, static_cast<int32_t>(slot)), replicates, film.halved());
     }
     return spreads;
 }
 
-/// Sums of variance and of light over all pixels to the left of and below one: any rectangle is four
-/// of them (Crow 1984).
+/// Sums of variance and of light over all pixels to the left of and below one: any rectangle is
+/// four of them (Crow 1984).
 class SummedSpread {
   public:
     SummedSpread(const std::vector<PixelSpread>& spreads, int32_t width, int32_t height)
@@ -100,7 +102,8 @@ class SummedSpread {
                 row.variance += one.variance;
                 row.light += one.light;
                 const Sum& below = at(x + 1, y);
-                sums_[index(x + 1, y + 1)] = {below.variance + row.variance, below.light + row.light};
+                sums_[index(x + 1, y + 1)] = {below.variance + row.variance,
+                                              below.light + row.light};
             }
         }
     }
@@ -112,7 +115,8 @@ class SummedSpread {
     Sum mean(int32_t x, int32_t y, int32_t reach) const {
         const int32_t left = std::max(x - reach, 0), right = std::min(x + reach + 1, width_);
         const int32_t low = std::max(y - reach, 0), high = std::min(y + reach + 1, height_);
-        const Sum &a = at(left, low), &b = at(right, low), &c = at(left, high), &d = at(right, high);
+        const Sum &a = at(left, low), &b = at(right, low), &c = at(left, high),
+                  &d = at(right, high);
         const double scale = 1.0 / (static_cast<double>(right - left) * (high - low));
         return {std::max(d.variance - b.variance - c.variance + a.variance, 0.0) * scale,
                 (d.light - b.light - c.light + a.light) * scale};
@@ -146,7 +150,8 @@ Evidence measure_pixel_error(const Film& film, float* half_width, uint8_t* flags
             const PixelSpread& own = spreads[at];
             const SummedSpread::Sum near = pooled.mean(x, y, kReach);
             const double around = std::max(near.variance, pooled.mean(x, y, kWideReach).variance);
-            half_width[at] = static_cast<float>(student * std::sqrt(std::max(own.variance, around)));
+            half_width[at] =
+                static_cast<float>(student * std::sqrt(std::max(own.variance, around)));
             flags[at] = own.flags;
             if (!(near.light > 1e-12 * mean_light)) continue;
             lit += 1.0;

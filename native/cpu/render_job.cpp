@@ -44,8 +44,10 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
     : request_(request),
       frozen_(scene),
       film_({request.rect, request.passes,
-             request.is_allotted() ? std::max<int64_t>(request.samples, kReplicates) : request.samples,
-             choose_tile_size(request.rect, resolve_threads(request.threads)), request.is_allotted()}),
+             request.is_allotted() ? std::max<int64_t>(request.samples, kReplicates)
+                                   : request.samples,
+             choose_tile_size(request.rect, resolve_threads(request.threads)),
+             request.is_allotted()}),
       kernels_(choose_kernel_set(frozen_.features(), scene.world.isa)),
       view_{frozen_.view(), request.width, request.height, request.seed, request.max_bounces},
       work_count_(count_passes(request.samples) * film_.tile_count()),

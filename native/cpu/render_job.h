@@ -34,7 +34,7 @@ enum class StopReason : int { none, samples, time, error, cancel };
 struct RenderProgress {
     bool done;
     StopReason stopped_by;  // none while it runs
-    int64_t samples;  // a pixel, rounded down over the picture
+    int64_t samples;        // a pixel, rounded down over the picture
     int64_t target;
     double seconds;
     RayCounts rays;

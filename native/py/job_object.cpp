@@ -67,8 +67,8 @@ PyObject* poll_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         return checked(Py_BuildValue(
             "{s:O, s:O, s:z, s:L, s:L, s:d, s:L, s:L, s:L, s:L, s:s}", "done", as_bool(state.done),
             "cancelled", as_bool(state.stopped_by == StopReason::cancel), "stopped_by",
-            name_of(state.stopped_by), "samples", static_cast<long long>(state.samples),
-            "target", static_cast<long long>(state.target), "seconds", state.seconds, "rays_camera",
+            name_of(state.stopped_by), "samples", static_cast<long long>(state.samples), "target",
+            static_cast<long long>(state.target), "seconds", state.seconds, "rays_camera",
             static_cast<long long>(state.rays.camera), "rays_shadow",
             static_cast<long long>(state.rays.shadow), "rays_bounce",
             static_cast<long long>(state.rays.bounce), "rejected_samples",
@@ -149,10 +149,10 @@ PyObject* error_method(PyObject* self, PyObject*) {
         }
         PyRef mse = known ? checked(PyFloat_FromDouble(error.mse)) : none();
         PyRef relmse = known ? checked(PyFloat_FromDouble(error.relmse)) : none();
-        return checked(Py_BuildValue("{s:i, s:i, s:O, s:O, s:O}", "replicates", error.replicates,
-                                     "groups", error.halves ? 2 : 1, "mse",
-                                     mse.get(), "relmse", relmse.get(), "delete_one_mse",
-                                     without.get()));
+        return checked(Py_BuildValue("{s:i, s:i, s:O, s:O, s:d, s:O}", "replicates",
+                                     error.replicates, "groups", error.halves ? 2 : 1, "mse",
+                                     mse.get(), "relmse", relmse.get(), "normal_spread",
+                                     error.normal_spread, "delete_one_mse", without.get()));
     });
 }
 
@@ -162,9 +162,10 @@ PyObject* pixel_error_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         const char* const names[] = {"half_width", "flags", nullptr};
         parse_arguments(args, kwargs, "OO", names, &half_width, &flags);
         const Film& film = job_of(self).film();
-        Buffer widths =
-            Buffer::of<float>(half_width, "half_width", {film.height(), film.width()}, Access::write);
-        Buffer bits = Buffer::of<uint8_t>(flags, "flags", {film.height(), film.width()}, Access::write);
+        Buffer widths = Buffer::of<float>(half_width, "half_width", {film.height(), film.width()},
+                                          Access::write);
+        Buffer bits =
+            Buffer::of<uint8_t>(flags, "flags", {film.height(), film.width()}, Access::write);
         Evidence evidence;
         {
             const WithoutGil unlocked;
@@ -187,10 +188,12 @@ PyMethodDef kJobMethods[] = {
     {"replicates", as_method(replicates_method), METH_VARARGS | METH_KEYWORDS,
      "replicates(sums, counts): fills float64 (8, h, w, 3) and int64 (8,)"},
     {"error", error_method, METH_NOARGS,
-     "error() -> dict: replicates, groups, mse, relmse, delete_one_mse; None below 2 replicates"},
+     "error() -> dict: replicates, groups, mse, relmse, normal_spread, delete_one_mse; None below "
+     "2 replicates"},
     {"pixel_error", as_method(pixel_error_method), METH_VARARGS | METH_KEYWORDS,
      "pixel_error(half_width, flags) -> dict: fills float32 (h, w), the 95 % half width of each "
-     "pixel's luminance, and uint8 (h, w): 1 no replicate saw light, 2 one makes nearly all of the spread"},
+     "pixel's luminance, and uint8 (h, w): 1 no replicate saw light, 2 one makes nearly all of the "
+     "spread"},
     {nullptr, nullptr, 0, nullptr}};
 
 PyType_Slot kJobSlots[] = {

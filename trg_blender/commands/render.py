@@ -53,18 +53,18 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "depth and normal as layers; PNG is 8 bit through the scene's view transform.",
     )
     add = parser.add_argument
-    add("file", type=_path_with(SOURCES), help="FILE.trg or FILE.blend")
+    add("file", type=source_path, help="FILE.trg or FILE.blend")
     add("-o", "--output", type=_path_with(PICTURES), metavar="OUT", help="picture (.png or .exr); FILE.png")
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--frame", type=int, metavar="N", help="frame to render")
     which.add_argument("--frames", type=_frame_range, metavar="A-B", help="frames to render; numbered files")
-    add("--size", type=_size, metavar="WxH", help="picture size; else the program's or the file's")
+    add("--size", type=size_of, metavar="WxH", help="picture size; else the program's or the file's")
     add("--device", choices=("auto", *DEVICE_NAMES), help="what traces the rays")
     add("--accel", choices=ACCELERATORS, help="structure that finds the nearest surface")
     add("--integrator", choices=INTEGRATORS, help="how light is gathered")
     add("--samples", type=_at_least(1), metavar="N", help="light paths for each pixel")
-    add("--time", type=_positive, metavar="S", help="stop after so many seconds of tracing")
-    add("--error", type=_positive, metavar="RMSE", help="stop when the picture's estimated error is so small")
+    add("--time", type=positive_number, metavar="S", help="stop after so many seconds of tracing")
+    add("--error", type=positive_number, metavar="RMSE", help="stop at this estimated error of the picture")
     add("--no-adaptive", action="store_true", help="with --time or --error: all pixels get equal samples")
     add("--seed", type=_at_least(0), metavar="N", help="changes the noise")
     add("--threads", type=_at_least(0), metavar="N", help="0: all cores")
@@ -196,6 +196,24 @@ class RenderCommand:
             records.watcher = None
         self._finish(picture, frame, {"script": script_seconds, "total": time.perf_counter() - begin})
 
+    def read(self, frame: int) -> tuple[Any, Any]:
+        """Arrays and settings of a frame, as the engine would read them. Raises RenderFailed."""
+        from ..engine.from_blender import SceneReader
+        from ..engine.render_engine import settings_of
+        from ..engine.to_blender import requested_modes
+
+        scene = self.bpy.context.scene
+        scene.frame_set(frame)
+        self._run_program(scene)
+        self.bpy.context.view_layer.update()
+        depsgraph = self.bpy.context.evaluated_depsgraph_get()
+        render = scene.render
+        share = render.resolution_percentage / 100.0
+        size = (max(int(render.resolution_x * share), 1), max(int(render.resolution_y * share), 1))
+        arrays = SceneReader().read(depsgraph.scene_eval, depsgraph, size)
+        modes = requested_modes(scene)
+        return arrays, settings_of(scene, self.bpy.context.view_layer, size, modes, arrays.warnings)
+
     def _run_program(self, scene: Any) -> float | None:
         """Runs the scene's program as the render's handlers will (who then find the frame ready).
 
@@ -314,6 +332,9 @@ def _path_with(suffixes: tuple[str, ...]) -> Any:
     return path
 
 
+source_path = _path_with(SOURCES)
+
+
 def _frame_range(text: str) -> range:
     match = re.fullmatch(r"(-?\d+)-(-?\d+)", text)
     if match is None or int(match[2]) < int(match[1]):
@@ -321,14 +342,14 @@ def _frame_range(text: str) -> range:
     return range(int(match[1]), int(match[2]) + 1)
 
 
-def _size(text: str) -> tuple[int, int]:
+def size_of(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d+)[xX](\d+)", text)
     if match is None or not int(match[1]) or not int(match[2]):
         raise argparse.ArgumentTypeError(f"{text!r} is not a size such as 640x480")
     return int(match[1]), int(match[2])
 
 
-def _positive(text: str) -> float:
+def positive_number(text: str) -> float:
     try:
         value = float(text)
     except ValueError:

@@ -58,13 +58,16 @@ def measure_error(sums: Float64, counts: NDArray[np.int64]) -> dict[str, Any]:
     """The error material of a job, from replicate sums (r, h, w, 3) and samples (r,).
 
     Keys: `replicates` that have samples; `mse`, the mean variance of the picture; `relmse`, the same over
-    picture^2 + 0.01; `delete_one_mse`, the mse without each replicate. None below two replicates.
+    picture^2 + 0.01; `delete_one_mse`, the mse without each replicate; `normal_spread`, half the relative
+    variance that the squared error of a picture would have were its noise normal (native/cpu/picture_error.h).
+    None below two replicates.
     """
     used = counts > 0
     sums, weights = sums[used], counts[used].astype(np.float64)
     replicates = len(weights)
     if replicates < 2:
-        return {"replicates": replicates, "mse": None, "relmse": None, "delete_one_mse": ()}
+        nothing = {"mse": None, "relmse": None, "normal_spread": 0.0, "delete_one_mse": ()}
+        return {"replicates": replicates, **nothing}
     variance, mean = variance_of_mean(sums, weights)
     delete_one: tuple[float, ...] = ()
     if replicates > 2:
@@ -77,8 +80,32 @@ def measure_error(sums: Float64, counts: NDArray[np.int64]) -> dict[str, Any]:
         "replicates": replicates,
         "mse": float(variance.mean()),
         "relmse": float(relative.mean()),
+        "normal_spread": normal_spread(sums, weights),
         "delete_one_mse": delete_one,
     }
+
+
+def normal_spread(sums: Float64, counts: Float64) -> float:
+    """Sum over pixels and pairs of channels of the squared covariance over the square of all variance.
+
+    0 below four replicates. The square is the product of what two halves of the replicates tell: a rare bright path is in one of them
+    alone and does not swell it.
+    """
+    if len(counts) < 4:
+        return 0.0
+    middle = len(counts) // 2
+    a, b = (
+        channel_covariance(sums[half], counts[half]) for half in (slice(None, middle), slice(middle, None))
+    )
+    both = 0.5 * float(np.trace(a + b, axis1=-2, axis2=-1).sum())
+    return float((a * b).sum()) / both**2 if both > 0.0 else 0.0
+
+
+def channel_covariance(sums: Float64, counts: Float64) -> Float64:
+    """(h, w, 3, 3): unbiased covariance of the channels of the mean of all samples."""
+    off = sums / counts[:, None, None, None] - sums.sum(axis=0) / counts.sum()
+    shares = counts / ((len(counts) - 1) * counts.sum())
+    return np.einsum("r,rhwc,rhwd->hwcd", shares, off, off)
 
 
 def variance_of_mean(sums: Float64, counts: Float64) -> tuple[Float64, Float64]:
@@ -97,23 +124,21 @@ def estimate_error(material: Mapping[str, Any]) -> PictureError:
     mse = material["mse"]
     if mse is None:
         return PictureError()
-    interval = jackknife_interval(mse, material["delete_one_mse"], material.get("groups", 1))
+    interval = error_interval(material)
     return PictureError(math.sqrt(max(mse, 0.0)), interval, material["relmse"])
 
 
-def jackknife_interval(
-    mse: float, delete_one: tuple[float, ...], groups: int = 1
-) -> tuple[float, float] | None:
+def error_interval(material: Mapping[str, Any]) -> tuple[float, float] | None:
     """95 % interval of the error that the picture has; None below three replicates.
 
-    The error of one picture differs from the mean error of such pictures. Of the squared error of one
-    replicate, s^2 / count is the variance of the estimate and s^2 that of a picture, were its noise normal as
-    the replicates'; so the jackknife's variance counts 1 + count times. Heavy tails make it too wide.
-
-    With `groups`, so many equal runs of replicates were drawn apart: each has its own mean and gives one
-    degree of freedom less. A common factor on all of `delete_one` does not matter.
+    Two doubts add up in the logarithm of the squared error: how well the replicates tell its mean over such
+    pictures (a jackknife over them), and how far one picture lies from that mean. The second is twice
+    `normal_spread`: of rare bright paths the picture's own error and its estimate hold the same ones, so they
+    are no further doubt. Replicates that were drawn in `groups` apart have a mean and one degree of freedom
+    less for each.
     """
-    count = len(delete_one)
+    mse, delete_one = material["mse"], material["delete_one_mse"]
+    groups, count = material.get("groups", 1), len(delete_one)
     if count < 3:
         return None
     if mse <= 0.0:
@@ -122,8 +147,9 @@ def jackknife_interval(
     logs = np.log(np.maximum(np.asarray(delete_one, dtype=np.float64), 1e-6 * mse))
     each = logs.reshape(groups, -1)
     size = each.shape[1]
-    spread = (size - 1) / size * float(((each - each.mean(axis=1, keepdims=True)) ** 2).sum())
-    half_width = 0.5 * STUDENT_95[min(count - groups, 7)] * math.sqrt((1 + count) * spread)
+    jackknife = (size - 1) / size * float(((each - each.mean(axis=1, keepdims=True)) ** 2).sum())
+    spread = jackknife + 2.0 * material["normal_spread"]
+    half_width = 0.5 * STUDENT_95[min(count - groups, 7)] * math.sqrt(spread)
     rmse = math.sqrt(mse)
     return (rmse * math.exp(-half_width), rmse * math.exp(half_width))
 

@@ -168,6 +168,15 @@ class RenderJob:
         """(h, w, 4) as far as it has come."""
         return read_combined(self._started.job, self._scene, film_shape(self._settings))
 
+    @property
+    def build_seconds(self) -> float:
+        """Seconds that making the accelerator took."""
+        return float(self._started.build.get("seconds") or 0.0)
+
+    def error(self) -> PictureError:
+        """The error as far as the picture has come."""
+        return estimate_error(self._started.job.error())
+
     def passes(self) -> dict[str, Float32]:
         """The passes asked for, as far as they have come."""
         return read_passes(self._started.job, self._settings, film_shape(self._settings))

@@ -1,0 +1,243 @@
+"""`trg report`: error against run time of one scene, by device, accelerator, integrator and triangle test."""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import itertools
+import sys
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from .. import cli
+from ..engine.devices import DEVICE_NAMES, INTEGRATORS, Unavailable, require_device
+from ..engine.native import ACCELERATORS, TRIANGLE_TESTS
+from .render import RenderCommand, RenderFailed, load_bpy, positive_number, size_of, source_path
+from .render_output import blender_chatter_off
+
+REFERENCE_FACTOR = 16
+"""The reference has so many times the samples of the longest curve."""
+ENDLESS = 2**20
+
+
+def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    parser = subparsers.add_parser(
+        "report",
+        help=cli.COMMANDS["report"],
+        description="Renders a scene by every combination of choices, looks at each picture after the times "
+        "given, and compares it with a long reference. Writes curves.csv, curves.png and report.html.",
+    )
+    add = parser.add_argument
+    add("file", type=source_path, help="FILE.trg or FILE.blend")
+    add("--devices", type=_list_of(DEVICE_NAMES), default=["cpu"], metavar="A,B")
+    add("--accels", type=_list_of(ACCELERATORS), default=["auto"], metavar="A,B")
+    add("--integrators", type=_list_of(INTEGRATORS), default=["path"], metavar="A,B")
+    add(
+        "--tests", type=_list_of(TRIANGLE_TESTS), default=["watertight"], metavar="A,B", help="triangle tests"
+    )
+    add("--times", type=_times, default=[0.5, 1.0, 2.0, 4.0], metavar="S,S", help="seconds; 0.5,1,2,4")
+    add("--seeds", type=int, default=3, metavar="N", help="renders of each combination; 3")
+    add("--target", type=positive_number, metavar="RMSE", help="say when each combination reaches it")
+    add("--reference", type=Path, metavar="FILE.exr", help="compare with this picture of the same size")
+    add("--size", type=size_of, metavar="WxH", help="picture size; else the program's or the file's")
+    add("--frame", type=int, metavar="N")
+    add("--threads", type=int, default=0, metavar="N", help="0: all cores")
+    add("--out", type=Path, default=Path("report"), metavar="DIR", help="where the three files go; report")
+
+
+def run(args: argparse.Namespace) -> int:
+    """Measures and writes. Raises Unavailable without bpy, matplotlib or an asked device."""
+    from .report_page import load_matplotlib, write_chart, write_page
+
+    if not args.file.is_file():
+        raise FileNotFoundError(f"there is no file {args.file}")
+    if args.seeds < 1:
+        raise argparse.ArgumentError(None, f"--seeds {args.seeds}: it must be 1 or more")
+    load_matplotlib()
+    for device in args.devices:
+        require_device(device)
+    with blender_chatter_off() as out:
+        try:
+            measured = measure(args, out)
+        except RenderFailed as failure:
+            sys.stderr.write(f"{failure}\n")
+            return failure.code
+        args.out.mkdir(parents=True, exist_ok=True)
+        write_table(args.out / "curves.csv", measured.points)
+        write_chart(args.out / "curves.png", measured)
+        write_page(args.out / "report.html", measured, args.out / "curves.png")
+        out.write(f"{args.out / 'report.html'}\n")
+        out.flush()
+    return cli.DONE
+
+
+@dataclass(frozen=True, slots=True)
+class Measured:
+    """What the page and the chart show."""
+
+    title: str
+    size: tuple[int, int]
+    points: list[Any]
+    references: dict[str, str]
+    """integrator -> where its reference comes from"""
+    target: float | None
+
+
+def measure(args: argparse.Namespace, out: Any) -> Measured:
+    from ..engine.error_curves import measure_curve
+
+    scene, settings = read_scene(args)
+    points: list[Any] = []
+    references: dict[str, str] = {}
+    truths: dict[str, Any] = {}
+    for variant in variants_of(args):
+        if variant.integrator not in truths:
+            truth, origin = reference_for(args, scene, variant.apply(settings), out)
+            truths[variant.integrator], references[variant.integrator] = truth, origin
+        for seed in range(1, args.seeds + 1):
+            curve = measure_curve(
+                scene, _with_seed(settings, seed), args.times, truths[variant.integrator], variant
+            )
+            for point in curve:
+                points.append(point)
+                out.write(
+                    f"{variant.name}, seed {seed}: {point.seconds:.2f} s, {point.samples:.0f} samples, "
+                    f"rmse {point.measured:.4g}"
+                    + (f" (stated {point.stated:.4g})\n" if point.stated is not None else "\n")
+                )
+                out.flush()
+    return Measured(str(args.file), (settings.width, settings.height), points, references, args.target)
+
+
+def variants_of(args: argparse.Namespace) -> Iterator[Any]:
+    """Every combination; the reference renderer has no accelerators of its own."""
+    from ..engine.error_curves import Variant
+
+    seen = set()
+    for device, accel, integrator, test in itertools.product(
+        args.devices, args.accels, args.integrators, args.tests
+    ):
+        variant = (
+            Variant(device, accel, integrator, test)
+            if device != "embree"
+            else Variant(device, "auto", integrator)
+        )
+        if variant not in seen:
+            seen.add(variant)
+            yield variant
+
+
+def reference_for(args: argparse.Namespace, scene: Any, settings: Any, out: Any) -> tuple[Any, str]:
+    """The picture to compare with and where it comes from. Raises RenderFailed for one that does not fit."""
+    from dataclasses import replace
+
+    from ..engine import session
+    from ..engine.error_curves import make_reference
+
+    if args.reference is not None:
+        return read_reference(args.reference, (settings.height, settings.width)), str(args.reference)
+    probe = session.render(scene, replace(settings, device="cpu", samples=ENDLESS, seconds=args.times[-1]))
+    samples = max(REFERENCE_FACTOR * int(probe.report["samples"]), 256)
+    out.write(f"reference of {settings.integrator}: {samples} samples\n")
+    out.flush()
+    return make_reference(scene, settings, samples), f"cpu, {samples} samples a pixel"
+
+
+def read_reference(path: Path, shape: tuple[int, int]) -> Any:
+    """(h, w, 3) float64, bottom row first, from an EXR or other float picture that Blender reads."""
+    import numpy as np
+
+    bpy = load_bpy()
+    try:
+        image = bpy.data.images.load(str(path.resolve()))
+    except RuntimeError as error:
+        raise RenderFailed(f"trg: error: {path}: it cannot be read as a picture", cli.WRONG) from error
+    image.colorspace_settings.name = "Non-Color"
+    width, height = image.size
+    if (height, width) != shape:
+        raise RenderFailed(
+            f"trg: error: {path}: it is {width} x {height}, the picture {shape[1]} x {shape[0]}", cli.WRONG
+        )
+    pixels = np.empty(width * height * 4, dtype=np.float32)
+    image.pixels.foreach_get(pixels)
+    bpy.data.images.remove(image)
+    return pixels.reshape(height, width, 4)[..., :3].astype(np.float64)
+
+
+def read_scene(args: argparse.Namespace) -> tuple[Any, Any]:
+    """Arrays and settings of the frame, by the way that `trg render` takes. Raises RenderFailed."""
+    from dataclasses import replace
+
+    args.engine, args.settings = "TRG", []
+    for name in ("device", "accel", "integrator", "samples", "seed", "time", "error"):
+        setattr(args, name, None)
+    args.no_adaptive, args.frames, args.quiet, args.output = True, None, True, None
+    with open_scene(args) as command:
+        arrays, settings = command.read(next(iter(command.frames())))
+    return arrays, replace(settings, samples=ENDLESS, threads=args.threads, passes=())
+
+
+def open_scene(args: argparse.Namespace) -> Any:
+    from contextlib import contextmanager
+
+    @contextmanager
+    def opened() -> Iterator[RenderCommand]:
+        command = RenderCommand(load_bpy(), args, sys.stderr)
+        try:
+            command.open()
+            yield command
+        finally:
+            command.close()
+
+    return opened()
+
+
+def write_table(path: Path, points: list[Any]) -> None:
+    with path.open("w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(
+            "device accel integrator triangle_test seed seconds samples rmse stated low high".split()
+        )
+        for p in points:
+            v = p.variant
+            table.writerow(
+                [
+                    v.device,
+                    v.accel,
+                    v.integrator,
+                    v.triangle_test,
+                    p.seed,
+                    f"{p.seconds:.6g}",
+                    f"{p.samples:g}",
+                ]
+                + ["" if x is None else f"{x:.6g}" for x in (p.measured, p.stated, p.low, p.high)]
+            )
+
+
+def _with_seed(settings: Any, seed: int) -> Any:
+    from dataclasses import replace
+
+    return replace(settings, seed=seed)
+
+
+def _list_of(known: tuple[str, ...]) -> Any:
+    def words(text: str) -> list[str]:
+        found = [word.strip() for word in text.split(",") if word.strip()]
+        unknown = [word for word in found if word not in known]
+        if unknown or not found:
+            raise argparse.ArgumentTypeError(f"{text!r}: choose from {', '.join(known)}")
+        return found
+
+    return words
+
+
+def _times(text: str) -> list[float]:
+    times = sorted({positive_number(part) for part in text.split(",") if part.strip()})
+    if not times:
+        raise argparse.ArgumentTypeError(f"{text!r} holds no seconds")
+    return times
+
+
+__all__ = ["Measured", "Unavailable", "add_parser", "run"]
