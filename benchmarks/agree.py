@@ -3,8 +3,8 @@
     .venv/3.13/bin/python -m benchmarks.agree [--seeds 8] [--samples 64] [--out DIR] [--json FILE] [NAME ...]
 
 Method. Each engine renders each scene with `seeds` seeds of `samples` samples: no denoiser, no clamping, no
-adaptive sampling, caustics on, the same bounces, a box filter of one pixel. The spread of the seeds gives
-the noise of every figure. A scene agrees when the means of the pictures differ by no more than 0.5 % and no
+adaptive sampling, caustics on, the same bounces, a box filter of one pixel unless the scene is about filters.
+The spread of the seeds gives the noise of every figure. A scene agrees when the means of the pictures differ by no more than 0.5 % and no
 region of 16 x 16 pixels by more than 2 %, both beyond the noise: the difference less z standard errors,
 with z for 1 % of false alarms a scene over its regions (Bonferroni). FLIP (Andersson et al. 2020) compares
 the two pictures tone-mapped by the sRGB curve, when the package flip_evaluator is there; noise raises it.
@@ -73,10 +73,9 @@ def prepare(scene: Any, samples: int) -> None:
     cycles.sample_clamp_direct = cycles.sample_clamp_indirect = 0.0
     cycles.blur_glossy = 0.0
     cycles.caustics_reflective = cycles.caustics_refractive = True
-    cycles.pixel_filter_type = "BOX"
-    cycles.filter_width = 1.0
-    if hasattr(scene.trg, "filter_type"):
-        scene.trg.filter_type = "BOX"
+    name, width = scene.get("agree_filter", "BOX 1").split()
+    cycles.pixel_filter_type = scene.trg.filter_type = name
+    cycles.filter_width = scene.trg.filter_width = float(width)
     for name in ("max", "diffuse", "glossy", "transmission"):
         setattr(cycles, f"{name}_bounces", BOUNCES)
     cycles.transparent_max_bounces = 64

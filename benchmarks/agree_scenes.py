@@ -286,6 +286,13 @@ def camera(**values: Any) -> Stage:
     return stage
 
 
+def filtered(name: str, width: float) -> Stage:
+    """Edges and highlights by a pixel filter; agree.py gives it to both engines."""
+    stage = camera()
+    stage.scene["agree_filter"] = f"{name} {width}"
+    return stage
+
+
 def moving(what: str) -> Stage:
     """Linear motion over the shutter of half a frame, of a sphere or of the camera."""
     stage = camera()
@@ -321,6 +328,9 @@ def camera_scenes() -> dict[str, Any]:
             dof__use_dof=True, dof__focus_distance=5.0, dof__aperture_fstop=0.1, dof__aperture_blades=6
         ),
         "shift": lambda: camera(shift_x=0.1, shift_y=-0.2),
+        "filter box": lambda: filtered("BOX", 1.0),
+        "filter gaussian": lambda: filtered("GAUSSIAN", 3.0),
+        "filter blackman-harris": lambda: filtered("BLACKMAN_HARRIS", 6.0),
         "motion blur": lambda: moving("object"),
         "camera motion blur": lambda: moving("camera"),
     }

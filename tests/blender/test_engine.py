@@ -228,3 +228,16 @@ def test_registering_again_leaves_nothing_behind():
     registration.unregister()
     assert "TRG" not in panel.COMPAT_ENGINES and not hasattr(bpy.types.Scene, "trg")
     registration.register()
+
+
+def test_the_pixel_filter_softens_edges(cube, tmp_path):
+    """A box is one pixel wide whatever the width says; a wide bell keeps the mean and lessens the slopes."""
+    cube.trg.samples = 64
+    pictures = {}
+    for name, width in (("BOX", 1.5), ("BOX", 6.0), ("BLACKMAN_HARRIS", 6.0)):
+        cube.trg.filter_type, cube.trg.filter_width = name, width
+        pictures[name, width] = rgb(render(cube, tmp_path / "filtered.exr"))
+    box, wide_box, bell = pictures.values()
+    np.testing.assert_array_equal(box, wide_box)
+    assert bell.mean() == pytest.approx(box.mean(), rel=0.02)
+    assert np.abs(np.diff(bell, axis=1)).max() < 0.7 * np.abs(np.diff(box, axis=1)).max()

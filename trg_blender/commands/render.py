@@ -22,6 +22,7 @@ from .. import cli
 from ..engine.devices import DEVICE_NAMES, INTEGRATORS, Unavailable, require_device
 from ..engine.native import ACCELERATORS
 from ..engine.report import ENDLESS_SAMPLES, with_source
+from ..engine.scene_arrays import PIXEL_FILTERS
 from ..lang import ProgramError
 from .parameters import SetError, add_set, parameters_of
 from .render_output import ProgressPrinter, blender_chatter_off, describe_report, frame_path, write_report
@@ -66,6 +67,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add("--time", type=positive_number, metavar="S", help="stop after so many seconds of tracing")
     add("--error", type=positive_number, metavar="RMSE", help="stop at this estimated error of the picture")
     add("--no-adaptive", action="store_true", help="with --time or --error: all pixels get equal samples")
+    add("--filter", choices=PIXEL_FILTERS, metavar="NAME", help="pixel filter: " + ", ".join(PIXEL_FILTERS))
+    add("--filter-width", type=_positive, metavar="PIXELS", help="width of a filter other than box; 1.5")
     add("--seed", type=_at_least(0), metavar="N", help="changes the noise")
     add("--threads", type=_at_least(0), metavar="N", help="0: all cores")
     add("--engine", choices=("TRG", "CYCLES"), default="TRG", help="engine that renders the scene")
@@ -272,6 +275,10 @@ def apply_options(bpy: ModuleType, scene: Any, args: argparse.Namespace) -> None
         value = getattr(args, name)
         if value is not None:
             setattr(scene.trg, name, value)
+    if args.filter is not None:
+        scene.trg.filter_type = args.filter.upper()
+    if args.filter_width is not None:
+        scene.trg.filter_width = args.filter_width
     if args.engine == "TRG":
         set_stops(scene.trg, args)
     if args.threads:

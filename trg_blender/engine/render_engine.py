@@ -219,6 +219,8 @@ def settings_of(
         seconds=own.time_limit if own.use_time_limit else 0.0,
         rmse=own.error_target if own.use_error_target else 0.0,
         adaptive=own.use_adaptive and (own.use_time_limit or own.use_error_target) and device != "embree",
+        pixel_filter=own.filter_type.lower(),
+        filter_width=1.0 if own.filter_type == "BOX" else own.filter_width,
         seed=own.seed,
         max_bounces=own.max_bounces,
         threads=scene.render.threads if scene.render.threads_mode == "FIXED" else 0,

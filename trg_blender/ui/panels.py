@@ -84,6 +84,10 @@ class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):
         row = layout.row()
         row.enabled = stops
         row.prop(own, "use_adaptive")
+        layout.prop(own, "filter_type")
+        row = layout.row()
+        row.enabled = own.filter_type != "BOX"
+        row.prop(own, "filter_width")
         for name in ("max_bounces", "seed", "device", "accel", "integrator"):
             layout.prop(own, name)
         column = layout.column()

@@ -22,6 +22,11 @@ ACCELERATORS = (
     ("tree", "Paper's Tree", "Boxes halved along their longest axis, four triangles a leaf"),
     ("none", "None", "Every ray against every triangle: for tiny scenes and tests"),
 )
+FILTERS = (
+    ("BOX", "Box", "Every point of the pixel counts equally; one pixel wide"),
+    ("GAUSSIAN", "Gaussian", "A bell that is cut off at one and a half widths"),
+    ("BLACKMAN_HARRIS", "Blackman-Harris", "A bell without a cut, that reaches one width: Cycles' default"),
+)
 INTEGRATORS = (("path", "Path Tracing", "Unidirectional, with light sampling and Russian roulette"),)
 
 
@@ -87,6 +92,17 @@ class TRGSceneSettings(bpy.types.PropertyGroup):
         default=12,
         min=0,
         max=1024,
+    )
+    filter_type: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Pixel Filter", description="How the light about a pixel makes its colour", items=FILTERS
+    )
+    filter_width: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Width",
+        description="Width of the bell in pixels, as Cycles means it; a box is always one pixel wide",
+        default=1.5,
+        min=0.01,
+        max=10.0,
+        subtype="PIXEL",
     )
     device: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Device", description="What traces the rays", items=DEVICES, default="auto"
