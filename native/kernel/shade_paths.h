@@ -90,18 +90,25 @@ TRG_FN float triangle_density(const EmitterView& e, Vec3 p, const Hit& hit, Vec3
     return leaf < 0 ? 0.0f : tree_chance(e.tree, leaf, p, receiver) / e.tree.nodes[leaf].power;
 }
 
+/// How a bounce ray met a surface, and how light was drawn where it started.
+struct Arrival {
+    const Ray& ray;
+    const Hit& hit;
+    float pdf;      // of the ray's direction; 0 after a delta or from the camera
+    Vec3 receiver;  // as PathQueues has it
+};
+
 /// Emission of the surface met, weighted against the chance of sampling it as a light.
 template <uint32_t F>
-TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Ray& ray, const Hit& hit,
-                          float pdf, Vec3 receiver) {
+TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Arrival& by) {
     const Material& m = scene.materials[s.material];
-    const Vec3 light = eval_emission<F>(scene, s, -normalize(ray.direction));
-    if (!(pdf > 0.0f)) return light;
-    const float cosine = std::fabs(dot(s.outside, ray.direction));
-    const float chosen = triangle_density(scene.emitters, ray.origin, hit, receiver);
+    const Vec3 light = eval_emission<F>(scene, s, -normalize(by.ray.direction));
+    if (!(by.pdf > 0.0f)) return light;
+    const float cosine = std::fabs(dot(s.outside, by.ray.direction));
+    const float chosen = triangle_density(scene.emitters, by.ray.origin, by.hit, by.receiver);
     if (!(cosine > 0.0f) || !(chosen > 0.0f)) return light;
     const float density = chosen * s.sampling * m.emission_weight;
-    return light * power_heuristic(pdf, density * hit.t * hit.t / cosine);
+    return light * power_heuristic(by.pdf, density * by.hit.t * by.hit.t / cosine);
 }
 
 /// The material at the point, its textures looked up.
@@ -209,8 +216,9 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
         if (scene.materials[v.surface.material].emission_weight > 0.0f)
             result.radiance =
                 result.radiance +
-                state.throughput * emission_seen<F>(scene, v.surface, ray, hit, state.pdf,
-                                                    stage.queues.receivers[state.path]);
+                state.throughput *
+                    emission_seen<F>(scene, v.surface,
+                                     {ray, hit, state.pdf, stage.queues.receivers[state.path]});
     if (stage.depth > stage.view.max_bounces) return;
     Vec3 normal;
     const bool scatters = make_vertex<F>(scene, -normalize(ray.direction), &v, &normal);

@@ -180,14 +180,9 @@ class HostTable:
         self.constants[name] = HostConstant(name, value, doc)
 
     def method(
-        self, owner: type[Value], name: str, signature: str, doc: str, result: str = "",
-        direct: Callable[..., object] | None = None,
-    ) -> Callable[[Callable[..., object]], Callable[..., object]]:  # fmt: skip
-        """Declare the decorated `run(rt, object, *arguments)` as method `name` of class `owner`.
-
-        `direct(object, depth, arguments...)` is what programs call as it stands: it checks the arguments by
-        itself, their number excepted.
-        """
+        self, owner: type[Value], name: str, signature: str, doc: str, result: str = ""
+    ) -> Callable[[Callable[..., object]], Callable[..., object]]:
+        """Declare the decorated `run(rt, object, *arguments)` as method `name` of class `owner`."""
 
         def declare(run: Callable[..., object]) -> Callable[..., object]:
             row = Builtin(
@@ -195,15 +190,16 @@ class HostTable:
                 result or owner.kind, doc, run, owner.kind,
             )  # fmt: skip
             self.methods[owner.kind, name] = row
-
-            if direct is None:
-                invoke = method_invoker(row, make_checker(row))
-            else:
-                invoke = named_for_faults(row, direct)
-            setattr(owner, "T_" + name, invoke)
+            setattr(owner, "T_" + name, method_invoker(row, make_checker(row)))
             return run
 
         return declare
+
+    def direct(self, owner: type[Value], name: str, invoke: Callable[..., object]) -> None:
+        """Let programs call `invoke(object, depth, arguments...)` as it stands for declared method `name`:
+        it checks the arguments by itself, their number excepted.
+        """
+        setattr(owner, "T_" + name, named_for_faults(self.methods[owner.kind, name], invoke))
 
     @property
     def names(self) -> frozenset[str]:

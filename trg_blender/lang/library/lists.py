@@ -13,9 +13,12 @@ def _list(rt: Runtime, *values: object) -> object:
     return List(rt, list(values))
 
 
-@HOST.method(List, "append", "value: anything", "Add an element at the end.", direct=List.append)
+@HOST.method(List, "append", "value: anything", "Add an element at the end.")
 def _append(_rt: Runtime, target: List, value: object) -> object:
     return target.append(None, value)
+
+
+HOST.direct(List, "append", List.append)
 
 
 @HOST.method(
