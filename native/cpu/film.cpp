@@ -34,7 +34,8 @@ void mean_of(const PixelSums& at, const MeanOf& of, double* mean) {
 Film::Film(const FilmLayout& layout)
     : layout_(layout),
       replicates_(static_cast<int>(std::min<int64_t>(layout.samples, kReplicates))),
-      channels_(layout.passes.alpha ? 4 : 3) {
+      channels_(layout.passes.alpha ? 4 : 3),
+      pass_film_(layout.passes.more, static_cast<int64_t>(width()) * height()) {
     const size_t pixels = static_cast<size_t>(width()) * height();
     sums_.resize(pixels * replicates_ * channels_);
     if (layout.passes.normal) normals_.resize(pixels * 3);
@@ -63,10 +64,10 @@ void Film::make_tiles() {
     }
 }
 
-void Film::add(const Chunk& chunk, const PathResult* results) {
+void Film::add(const Chunk& chunk, const PathQueues& queues, const PassView& view) {
     const int32_t count = chunk.pixel_count * chunk.samples;
     for (int32_t i = 0; i < count; ++i) {
-        const PathResult& result = results[i];
+        const PathResult& result = queues.results[i];
         if (!is_finite(result.radiance)) {
             rejected_.fetch_add(1, std::memory_order_relaxed);
             continue;
@@ -79,6 +80,7 @@ void Film::add(const Chunk& chunk, const PathResult* results) {
         sum[1] += result.radiance.y;
         sum[2] += result.radiance.z;
         if (layout_.passes.alpha) sum[3] += result.hit;
+        if (queues.passes.states) pass_film_.add(at, view, queues.passes, i);
         if (!layout_.passes.normal) continue;
         normals_[3 * at] += result.normal.x;
         normals_[3 * at + 1] += result.normal.y;
@@ -157,6 +159,24 @@ void Film::read_depth(float* out) const {
         const std::lock_guard<std::mutex> hold(tiles_[index].lock);
         for (const Pixel& pixel : tiles_[index].pixels)
             out[index_of(pixel)] = depth_[index_of(pixel)];
+    }
+}
+
+void Film::read_pass(PassKind kind, float* out) const {
+    const int32_t channels = pass_film_.channels(kind);
+    for (int index = 0; index < tile_count_; ++index) {
+        const Tile& tile = tiles_[index];
+        const std::lock_guard<std::mutex> hold(tiles_[index].lock);
+        for (size_t slot = 0; slot < tile.pixels.size(); ++slot) {
+            double samples = tile.samples_done;
+            if (kind == kSampleCount && tile.samples_done > 0) {
+                const PixelSums at = counted(tile, static_cast<int32_t>(slot));
+                samples = 0.0;
+                for (int r = 0; r < replicates_; ++r) samples += at.counts[r];
+            }
+            const int64_t pixel = index_of(tile.pixels[slot]);
+            pass_film_.read(kind, pixel, samples, out + pixel * channels);
+        }
     }
 }
 

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <vector>
 
+#include "cpu/pass_film.h"
 #include "kernel/path_queues.h"
 
 namespace trg {
@@ -20,6 +21,7 @@ struct FilmPasses {
     bool depth = false;
     bool normal = false;
     bool alpha = false;
+    PassRequest more;
 };
 
 /// Replicates of one half, in a film whose halves decide for each other (cpu/allotment.h).
@@ -88,7 +90,8 @@ class Film {
 
     /// Adds finished paths of `tile`, which the caller has locked; what is not finite is counted
     /// and dropped.
-    void add(const Chunk& chunk, const PathResult* results);
+    void add(const Chunk& chunk, const PathQueues& queues, const PassView& view);
+    PassFilm& pass_film() { return pass_film_; }
     void set_depth(const Pixel* pixels, int32_t count, const float* depth);
 
     /// What counts at pixel `slot` of `tile`, whose lock the caller holds: the first
@@ -111,6 +114,9 @@ class Film {
     void read_combined(float* out) const;
     void read_normal(float* out) const;
     void read_depth(float* out) const;
+    /// (h, w, channels) of a pass that was asked for.
+    void read_pass(PassKind kind, float* out) const;
+    const PassFilm& pass_film() const { return pass_film_; }
     /// (8, h, w, 3) sums and (8,) samples that every tile has. The sums of tiles that are further
     /// ahead are scaled down to these; sums / samples are still the means of all their samples.
     void read_replicates(double* sums, int64_t* counts) const;
@@ -125,6 +131,7 @@ class Film {
     std::unique_ptr<Tile[]> tiles_;
     std::vector<double> sums_, normals_;
     std::vector<float> depth_;
+    PassFilm pass_film_;
     std::atomic<int64_t> rejected_{0};
 };
 

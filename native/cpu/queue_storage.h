@@ -3,14 +3,15 @@
 
 #include <vector>
 
+#include "cpu/pass_film.h"
 #include "kernel/path_queues.h"
 
 namespace trg {
 
 class QueueStorage {
   public:
-    /// Room for `capacity` paths with `lights` shadow rays each.
-    QueueStorage(int32_t capacity, int32_t lights)
+    /// Room for `capacity` paths with `lights` shadow rays each, and for what passes ask for.
+    QueueStorage(int32_t capacity, int32_t lights, const PassRequest& passes)
         : rays_(capacity),
           hits_(capacity),
           states_(capacity),
@@ -20,13 +21,29 @@ class QueueStorage {
           shadow_rays_(static_cast<size_t>(capacity) * lights),
           shadows_(static_cast<size_t>(capacity) * lights),
           hidden_(static_cast<size_t>(capacity) * (lights > 1 ? lights : 1)),
-          depth_(capacity) {}
+          depth_(capacity) {
+        if (!passes.needs_kernels()) return;
+        stride_ = lay_out_passes(passes).stride;
+        pass_values_.resize(static_cast<size_t>(capacity) * stride_);
+        pass_states_.resize(capacity);
+        pass_hits_.resize(capacity);
+        shadow_shares_.resize(static_cast<size_t>(capacity) * lights);
+    }
 
     PathQueues view() {
         const int32_t capacity = static_cast<int32_t>(rays_.size());
-        return {capacity,        rays_.data(),    hits_.data(),      states_.data(),
-                keys_.data(),    results_.data(), receivers_.data(), shadow_rays_.data(),
-                shadows_.data(), hidden_.data()};
+        return {capacity,
+                rays_.data(),
+                hits_.data(),
+                states_.data(),
+                keys_.data(),
+                results_.data(),
+                receivers_.data(),
+                shadow_rays_.data(),
+                shadows_.data(),
+                hidden_.data(),
+                {pass_values_.data(), stride_, pass_states_.data(), pass_hits_.data(),
+                 shadow_shares_.data()}};
     }
     float* depth() { return depth_.data(); }
 
@@ -41,6 +58,11 @@ class QueueStorage {
     std::vector<ShadowState> shadows_;
     std::vector<uint8_t> hidden_;
     std::vector<float> depth_;
+    int32_t stride_ = 0;
+    std::vector<float> pass_values_;
+    std::vector<PassState> pass_states_;
+    std::vector<PassHit> pass_hits_;
+    std::vector<ScatterShares> shadow_shares_;
 };
 
 }  // namespace trg

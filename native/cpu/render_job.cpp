@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/parallel.h"
+#include "kernel/surface.h"
 
 namespace trg {
 
@@ -48,12 +49,16 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
                                    : request.samples,
              choose_tile_size(request.rect, resolve_threads(request.threads)),
              request.is_allotted()}),
-      kernels_(choose_kernel_set(frozen_.features(), scene.world.isa)),
-      view_{frozen_.view(), request.width, request.height, request.seed, request.max_bounces},
+      kernels_(choose_kernel_set(
+          frozen_.features() | (request.passes.more.needs_kernels() ? kPasses : 0u),
+          scene.world.isa)),
+      view_{frozen_.view(), request.width,       request.height,
+            request.seed,   request.max_bounces, frozen_.passes()},
       work_count_(count_passes(request.samples) * film_.tile_count()),
       start_(Clock::now()),
       end_(start_),
       allotment_(film_, {request.rmse, request.adaptive, most_per_replicate(request.samples)}) {
+    view_.passes.layout = film_.pass_film().layout();
     const CameraView& camera = view_.scene.camera;
     view_.scene.pixel_spread =
         std::fabs(camera.right - camera.left) / static_cast<float>(request.width);
@@ -61,9 +66,10 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
         static_cast<int>(std::min<int64_t>(resolve_threads(request.threads), film_.tile_count()));
     const EmitterView& emitters = view_.scene.emitters;
     const int32_t lights = emitters.always_count + (emitters.pool_count > 0 ? 1 : 0) +
-                           (view_.scene.environment.sampled ? 1 : 0);
+                           (view_.scene.environment.sampled ? 1 : 0) +
+                           (request.passes.more.has(kAmbientOcclusion) ? 1 : 0);
     for (int k = 0; k < threads; ++k)
-        storages_.emplace_back(film_.tile_pixels() * kSamplesPerPass, lights);
+        storages_.emplace_back(film_.tile_pixels() * kSamplesPerPass, lights, request.passes.more);
     running_ = threads;
     try {
         for (int k = 0; k < threads; ++k)
@@ -193,6 +199,27 @@ bool RenderJob::wait_for_turn(const Work& work) const {
     return true;
 }
 
+/// What the rays through the centres of the chunk's pixels meet goes into the film.
+void RenderJob::render_centre(const Chunk& chunk, QueueStorage& storage, std::mutex& lock) {
+    PathQueues queues = storage.view();
+    render_depth(view_, chunk.pixels, chunk.pixel_count, queues, storage.depth());
+    const std::lock_guard<std::mutex> hold(lock);
+    if (request_.passes.depth) film_.set_depth(chunk.pixels, chunk.pixel_count, storage.depth());
+    if (!request_.passes.more.needs_centre()) return;
+    const PassView& passes = view_.passes;
+    for (int32_t i = 0; i < chunk.pixel_count; ++i) {
+        const Hit& hit = queues.hits[i];
+        if (hit.triangle < 0) continue;
+        const Ray& ray = queues.rays[i];
+        const int32_t material = material_of(view_.scene, {hit.instance, hit.triangle});
+        film_.pass_film().set_centre(
+            film_.index_of(chunk.pixels[i]),
+            {ray.origin + ray.direction * hit.t,
+             passes.instance_ids ? passes.instance_ids[3 * hit.instance] : 0.0f,
+             passes.material_ids ? passes.material_ids[2 * material] : 0.0f});
+    }
+}
+
 /// Renders a tile's pass as one wavefront; the film takes all of it or, when cancelled, nothing.
 bool RenderJob::render_work(const Work& work, QueueStorage& storage) {
     RayCounts counts{};
@@ -200,16 +227,16 @@ bool RenderJob::render_work(const Work& work, QueueStorage& storage) {
     PathQueues queues = storage.view();
     const int32_t pixel_count = static_cast<int32_t>(tile.pixels.size());
     const Chunk chunk{tile.pixels.data(), pixel_count, work.first_sample, work.samples};
-    const bool with_depth = request_.passes.depth && work.first_sample == 0;
-    if (with_depth) render_depth(view_, chunk.pixels, pixel_count, queues, storage.depth());
+    const bool with_centre =
+        (request_.passes.depth || request_.passes.more.needs_centre()) && work.first_sample == 0;
+    if (with_centre) render_centre(chunk, storage, tile.lock);
     if (!kernels_.render_chunk(view_, chunk, queues, cancelled_, &counts)) {
         note_stop(StopReason::cancel);
         return false;
     }
     {
         const std::lock_guard<std::mutex> hold(tile.lock);
-        if (with_depth) film_.set_depth(chunk.pixels, pixel_count, storage.depth());
-        film_.add(chunk, queues.results);
+        film_.add(chunk, queues, view_.passes);
         tile.samples_done = work.first_sample + static_cast<uint32_t>(work.samples);
         tile.samples_published.store(tile.samples_done, std::memory_order_release);
     }

@@ -72,6 +72,7 @@ class RenderJob {
     bool render_task(const TileTask& task, QueueStorage& storage);
     void keep_snapshots(const TileTask& task);
     void end_task(const TileTask& task);
+    void render_centre(const Chunk& chunk, QueueStorage& storage, std::mutex& lock);
     bool render_work(const Work& work, QueueStorage& storage);
     bool wait_for_turn(const Work& work) const;
     bool should_stop();

@@ -33,7 +33,7 @@ const KernelSet& choose_kernel_set(uint32_t features, Isa isa) {
 }
 
 const char* kernel_set_names() {
-    return "plain lamps textured outdoor glass full programmed";
+    return "plain lamps textured outdoor glass full programmed passes";
 }
 
 void render_depth(const RenderView& view, const Pixel* pixels, int32_t count, PathQueues& queues,

@@ -1,7 +1,9 @@
 /// Paths in flight as structures of arrays, borrowed from room cpu.
 #pragma once
 
+#include "kernel/pass_list.h"
 #include "kernel/scene_view.h"
+#include "shade/bsdf_parts.h"
 #include "shade/sampler.h"
 
 namespace trg {
@@ -26,6 +28,26 @@ struct ShadowState {
     int32_t path;
 };
 
+/// What a path remembers for passes.
+struct PassState {
+    ScatterShares shares;  // of its first scattering
+    Vec3 feature;          // weight of denoising features still to come; null once they are there
+};
+
+/// The surface that a camera ray met; -1 for none.
+struct PassHit {
+    int32_t instance, material;
+};
+
+/// Memory for passes, all null when none is asked for.
+struct PassQueues {
+    float* values;  // `stride` floats a path
+    int32_t stride;
+    PassState* states;             // by path
+    PassHit* hits;                 // by path
+    ScatterShares* shadow_shares;  // by shadow ray of the first surface
+};
+
 /// Arrays of `capacity` paths; slots [0, count) hold the living ones.
 struct PathQueues {
     int32_t capacity;
@@ -38,6 +60,7 @@ struct PathQueues {
     Ray* shadow_rays;
     ShadowState* shadows;
     uint8_t* hidden;
+    PassQueues passes;
 };
 
 struct Pixel {
@@ -58,6 +81,7 @@ struct RenderView {
     int32_t width, height;  // of the whole picture
     uint32_t seed;
     int32_t max_bounces;
+    PassView passes;
 };
 
 struct RayCounts {

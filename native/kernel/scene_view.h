@@ -20,6 +20,7 @@ enum Feature : uint32_t {
     kSeeThrough = 32,       // surfaces that let light straight through
     kEnvironment = 512,     // a picture of the world around
     kPrograms = 1024,       // textures that are programs, and normals that they bend
+    kPasses = 2048,         // passes beside combined, depth and normal
 };
 
 TRG_FN constexpr bool has(uint32_t features, Feature feature) {

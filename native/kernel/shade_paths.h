@@ -2,7 +2,7 @@
 /// light and goes on.
 #pragma once
 
-#include "kernel/direct_light.h"
+#include "kernel/pass_values.h"
 
 namespace trg {
 
@@ -183,6 +183,34 @@ TRG_FN void continue_path(ShadeStage& stage, const Vertex& v) {
     if (stage.view.scene.emitters.tree.nodes) stage.queues.receivers[v.path] = receiver_of<F>(v);
 }
 
+/// Light from the end of a path's ray: of the world or of a surface (`source`).
+template <uint32_t F>
+TRG_FN void add_light(const RenderView& view, PathQueues& queues, const PathAt& end,
+                      PassKind source, Vec3 light) {
+    PathResult& result = queues.results[end.path];
+    result.radiance = result.radiance + light;
+    if constexpr (has(F, kPasses)) note_source(view, queues.passes, end, source, light);
+}
+
+/// Asks for light at `v` and sends the path on.
+template <uint32_t F>
+TRG_FN void scatter_path(ShadeStage& stage, const Vertex& v) {
+    const int32_t first_shadow = stage.shadows.count, first_path = stage.next_count;
+    add_light_samples<F>(stage.view.scene, v, &stage.shadows);
+    if constexpr (has(F, kPasses)) {
+        if (stage.depth == 0 && stage.view.passes.layout.lights)
+            split_shadows<F>(stage.queues.passes, v, first_shadow, stage.shadows);
+        note_vertex(stage.view, stage.queues.passes, v, stage.depth, &stage.shadows);
+    }
+    continue_path<F>(stage, v);
+    if constexpr (has(F, kPasses)) {
+        if (stage.depth > 0 || stage.next_count == first_path) return;
+        const Vec3 wi = to_local(v.frame, stage.queues.rays[first_path].direction);
+        stage.queues.passes.states[v.path].shares =
+            split_bsdf<lobes_of(F)>(v.bsdf, wi, stage.queues.states[first_path].pdf == 0.0f);
+    }
+}
+
 /// One path at the end of its ray. Slots are written at or before the one being read.
 template <uint32_t F>
 TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
@@ -190,23 +218,24 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
     const Ray ray = stage.queues.rays[slot];
     const Hit hit = stage.queues.hits[slot];
     const PathState state = stage.queues.states[slot];
+    const PathAt end{state.path, stage.depth};
     PathResult& result = stage.queues.results[state.path];
     if constexpr (has(F, kExtendedEmitters))
         if (stage.depth > 0 && scene.emitters.extended_count > 0)
-            result.radiance =
-                result.radiance + state.throughput * gather_lights(scene, ray,
-                                                                   hit.triangle >= 0 ? hit.t : kFar,
-                                                                   state.pdf);
+            add_light<F>(
+                stage.view, stage.queues, end, kEmissionPass,
+                state.throughput *
+                    gather_lights(scene, ray, hit.triangle >= 0 ? hit.t : kFar, state.pdf));
     if constexpr (has(F, kExtendedEmitters))
         if (stage.depth > 0 && scene.emitters.tree.has_extended)
-            result.radiance =
-                result.radiance +
+            add_light<F>(
+                stage.view, stage.queues, end, kEmissionPass,
                 state.throughput * gather_tree(scene, ray, hit.triangle >= 0 ? hit.t : kFar,
-                                               state.pdf, stage.queues.receivers[state.path]);
+                                               state.pdf, stage.queues.receivers[state.path]));
     if (hit.triangle < 0) {
-        result.radiance =
-            result.radiance +
-            state.throughput * world_seen<F>(scene, ray.direction, state.pdf, stage.depth);
+        add_light<F>(
+            stage.view, stage.queues, end, kEnvironmentPass,
+            state.throughput * world_seen<F>(scene, ray.direction, state.pdf, stage.depth));
         return;
     }
     if (stage.depth == 0) result.hit = true;
@@ -214,11 +243,14 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
     v.surface = surface_of_hit<F>(scene, ray, hit);
     if constexpr (has(F, kExtendedEmitters))
         if (scene.materials[v.surface.material].emission_weight > 0.0f)
-            result.radiance =
-                result.radiance +
-                state.throughput *
-                    emission_seen<F>(scene, v.surface,
-                                     {ray, hit, state.pdf, stage.queues.receivers[state.path]});
+            add_light<F>(stage.view, stage.queues, end, kEmissionPass,
+                         state.throughput * emission_seen<F>(scene, v.surface,
+                                                             {ray, hit, state.pdf,
+                                                              stage.queues.receivers[state.path]}));
+    if constexpr (has(F, kPasses))
+        if (stage.depth == 0)
+            note_place(stage.view, stage.queues.passes, state.path, v.surface,
+                       hit.t * length(ray.direction));
     if (stage.depth > stage.view.max_bounces) return;
     Vec3 normal;
     const bool scatters = make_vertex<F>(scene, -normalize(ray.direction), &v, &normal);
@@ -228,8 +260,7 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
     v.path = state.path;
     v.key = stage.queues.keys[state.path];
     v.dimension = kFirstBounceDimension + kDimensionsPerBounce * static_cast<uint32_t>(stage.depth);
-    add_light_samples<F>(scene, v, &stage.shadows);
-    continue_path<F>(stage, v);
+    scatter_path<F>(stage, v);
 }
 
 }  // namespace trg

@@ -9,9 +9,14 @@ namespace TRG_ISA {
 namespace {
 
 /// Adds the light of the shadow rays that were not stopped.
-void accumulate_light(PathQueues& queues, int32_t count) {
+template <uint32_t F>
+void accumulate_light(const RenderView& view, PathQueues& queues, int32_t depth, int32_t count) {
     for (int32_t i = 0; i < count; ++i) {
         if (queues.hidden[i]) continue;
+        if constexpr (has(F, kPasses)) {
+            note_shadow(view, queues, i, depth);
+            if (queues.shadows[i].path < 0) continue;
+        }
         PathResult& result = queues.results[queues.shadows[i].path];
         result.radiance = result.radiance + queues.shadows[i].light;
     }
@@ -75,6 +80,7 @@ bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues
                   const std::atomic<bool>& cancelled, RayCounts* counts) {
     int32_t living = generate_paths(view, chunk, queues);
     counts->camera += living;
+    if constexpr (has(F, kPasses)) clear_passes(view.passes, queues.passes, living);
     for (int32_t depth = 0; living > 0; ++depth) {
         if (cancelled.load(std::memory_order_relaxed)) return false;
         if (depth > 0) counts->bounce += living;
@@ -88,7 +94,7 @@ bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues
         if (stage.shadows.count > 0) {
             counts->shadow += stage.shadows.count;
             trace_shadows<F>(view.scene, queues, stage.shadows.count);
-            accumulate_light(queues, stage.shadows.count);
+            accumulate_light<F>(view, queues, depth, stage.shadows.count);
         }
         living = stage.next_count;
         if (depth == view.max_bounces && !last_ray_matters<F>(view.scene)) return true;
@@ -103,6 +109,7 @@ constexpr uint32_t kOutdoor = kTextured | kEnvironment;
 constexpr uint32_t kGlass = kOutdoor | kTransmission;
 constexpr uint32_t kFull = kGlass | kLayers | kSeeThrough;
 constexpr uint32_t kProgrammed = kFull | kPrograms;
+constexpr uint32_t kPassed = kProgrammed | kPasses;
 
 const KernelSet kSets[] = {{"plain", kPlain, render_chunk<kPlain>},
                            {"lamps", kLamps, render_chunk<kLamps>},
@@ -110,7 +117,8 @@ const KernelSet kSets[] = {{"plain", kPlain, render_chunk<kPlain>},
                            {"outdoor", kOutdoor, render_chunk<kOutdoor>},
                            {"glass", kGlass, render_chunk<kGlass>},
                            {"full", kFull, render_chunk<kFull>},
-                           {"programmed", kProgrammed, render_chunk<kProgrammed>}};
+                           {"programmed", kProgrammed, render_chunk<kProgrammed>},
+                           {"passes", kPassed, render_chunk<kPassed>}};
 
 }  // namespace
 

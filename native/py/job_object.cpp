@@ -118,6 +118,25 @@ PyObject* normal_method(PyObject* self, PyObject* out) {
     });
 }
 
+PyObject* read_pass_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        const char* name;
+        PyObject* out;
+        const char* const names[] = {"name", "out", nullptr};
+        parse_arguments(args, kwargs, "sO", names, &name, &out);
+        const Film& film = job_of(self).film();
+        const PassKind kind = find_pass(name);
+        if (kind == kPassKinds || !film.passes().more.has(kind))
+            throw StateError(std::string("the render was not asked for ") + name);
+        Buffer pixels = Buffer::of<float>(
+            out, "out", {film.height(), film.width(), film.pass_film().channels(kind)},
+            Access::write);
+        const WithoutGil unlocked;
+        film.read_pass(kind, pixels.mutable_data<float>());
+        return none();
+    });
+}
+
 PyObject* replicates_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         PyObject *sums, *counts;
@@ -185,6 +204,8 @@ PyMethodDef kJobMethods[] = {
     {"combined", combined_method, METH_O, "combined(out): fills float32 (h, w, 4)"},
     {"depth", depth_method, METH_O, "depth(out): fills float32 (h, w)"},
     {"normal", normal_method, METH_O, "normal(out): fills float32 (h, w, 3)"},
+    {"read_pass", as_method(read_pass_method), METH_VARARGS | METH_KEYWORDS,
+     "read_pass(name, out): fills float32 (h, w, channels); name is one of trg_native.PASSES"},
     {"replicates", as_method(replicates_method), METH_VARARGS | METH_KEYWORDS,
      "replicates(sums, counts): fills float64 (8, h, w, 3) and int64 (8,)"},
     {"error", error_method, METH_NOARGS,
@@ -233,6 +254,9 @@ PyRef start_job(PyObject* scene, const RenderRequest& request) {
 void add_job_type(PyObject* module) {
     PyRef type = checked(PyType_FromModuleAndSpec(module, &kJobSpec, nullptr));
     if (PyModule_AddObjectRef(module, "Job", type.get()) != 0) throw PythonError{};
+    std::vector<const char*> passes;
+    for (const PassInfo& pass : kPassTable) passes.push_back(pass.name);
+    add_names(module, "PASSES", passes);
     add_names(module, "MATERIAL_FIELDS", kMaterialFields);
     add_names(module, "LIGHT_FIELDS", kLightFields);
     add_names(module, "TEXTURE_FIELDS", kTextureFields);

@@ -119,8 +119,10 @@ FilmPasses parse_passes(PyObject* names) {
             passes.normal = true;
         else if (name == "alpha")
             passes.alpha = true;
+        else if (const PassKind kind = find_pass(name); kind != kPassKinds)
+            passes.more.asked |= 1u << kind;
         else
-            throw ArgumentError("passes: expected depth, normal or alpha, got " + name);
+            throw ArgumentError("passes: there is no " + name);
     }
     return passes;
 }
@@ -134,6 +136,34 @@ PixelRect checked_rect(const PixelRect& rect, int width, int height) {
         throw ArgumentError("width, height: more than " + std::to_string(kMostPixels) +
                             " pixels at once");
     return rect;
+}
+
+PyObject* set_pass_data_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        PyObject *instances, *materials;
+        PassTables passes;
+        const char* const names[] = {"instance_ids", "material_ids",     "matte_levels",
+                                     "mist",         "ambient_distance", nullptr};
+        parse_arguments(args, kwargs, "OOi(fff)f", names, &instances, &materials,
+                        &passes.matte_levels, &passes.mist_start, &passes.mist_depth,
+                        &passes.mist_falloff, &passes.ambient_distance);
+        const Buffer rows = Buffer::of<float>(instances, "instance_ids", {kAnyExtent, 3});
+        const Buffer more = Buffer::of<float>(materials, "material_ids", {kAnyExtent, 2});
+        Scene& scene = scene_to_change(self);
+        rows.expect_rows("instance_ids", static_cast<int64_t>(scene.world.instances.size()));
+        more.expect_rows("material_ids", static_cast<int64_t>(scene.tables.materials.size()));
+        if (passes.matte_levels < 1 || passes.matte_levels > 64)
+            throw ArgumentError("matte_levels: expected 1 to 64");
+        if (!(passes.mist_depth > 0.0f) || !std::isfinite(passes.mist_start) ||
+            !(passes.mist_falloff > 0.0f))
+            throw ArgumentError("mist: expected start, and depth and falloff above 0");
+        if (!(passes.ambient_distance > 0.0f))
+            throw ArgumentError("ambient_distance: expected more than 0");
+        passes.instance_ids.assign(rows.data<float>(), rows.data<float>() + rows.count());
+        passes.material_ids.assign(more.data<float>(), more.data<float>() + more.count());
+        scene.passes = std::move(passes);
+        return none();
+    });
 }
 
 PixelRect parse_border(PyObject* border, int width, int height) {
@@ -180,6 +210,8 @@ PyObject* start_render_method(PyObject* self, PyObject* args, PyObject* kwargs) 
         request.seed = static_cast<uint32_t>(seed ^ (seed >> 32));
         check_request(request);
         request.passes = parse_passes(passes);
+        request.passes.more.matte_levels =
+            reinterpret_cast<SceneObject*>(self)->scene->passes.matte_levels;
         request.rect = parse_border(border, request.width, request.height);
         return start_job(self, request);
     });
@@ -205,6 +237,10 @@ PyMethodDef kSceneRenderMethods[] = {
      "(4,)."},
     {"set_filter", as_method(set_filter_method), METH_VARARGS | METH_KEYWORDS,
      "set_filter(name, width=1.0): box, gaussian or blackman_harris of Blender's width in pixels"},
+    {"set_pass_data", as_method(set_pass_data_method), METH_VARARGS | METH_KEYWORDS,
+     "set_pass_data(instance_ids, material_ids, matte_levels, mist, ambient_distance)\n\n"
+     "float32 (instances, 3): index, object and asset matte; float32 (materials, 2): index, matte; "
+     "mist (start, depth, falloff); after instances and materials."},
     {"start_render", as_method(start_render_method), METH_VARARGS | METH_KEYWORDS,
      "start_render(width, height, samples, seed=0, max_bounces=12, threads=0, passes=(), "
      "border=None, seconds=0, rmse=0, adaptive=False) -> Job\n\n"

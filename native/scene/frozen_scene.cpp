@@ -50,6 +50,14 @@ FrozenScene::FrozenScene(const Scene& scene) {
     view_.filter = data_or_null(scene.tables.filter);
     features_ = find_features(scene);
     view_.see_through = (features_ & kSeeThrough) != 0;
+    const PassTables& p = scene.passes;
+    passes_ = {{},
+               data_or_null(p.instance_ids),
+               data_or_null(p.material_ids),
+               p.mist_start,
+               p.mist_depth,
+               p.mist_falloff,
+               p.ambient_distance};
 }
 
 void FrozenScene::check_materials(const Scene& scene) const {

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "kernel/pass_list.h"
 #include "scene/emitters.h"
 
 namespace trg {
@@ -17,6 +18,8 @@ class FrozenScene {
     FrozenScene& operator=(const FrozenScene&) = delete;
 
     const SceneView& view() const { return view_; }
+    /// Everything but the layout.
+    const PassView& passes() const { return passes_; }
     /// Union of Feature bits.
     uint32_t features() const { return features_; }
 
@@ -33,6 +36,7 @@ class FrozenScene {
     std::vector<TextureMesh> texture_meshes_;
     EmitterTables emitters_;
     SceneView view_{};
+    PassView passes_{};
     uint32_t features_ = 0;
 };
 

@@ -24,6 +24,14 @@ struct MeshAttributes {
     Vec3 space_scale{1.0f, 1.0f, 1.0f}, space_offset{0.0f, 0.0f, 0.0f};
 };
 
+/// What passes know of the scene beside its shape: see PassView.
+struct PassTables {
+    std::vector<float> instance_ids, material_ids;
+    int32_t matte_levels = 6;
+    float mist_start = 0.0f, mist_depth = 1.0f, mist_falloff = 1.0f;
+    float ambient_distance = 1e30f;
+};
+
 struct Scene {
     World world;
     std::vector<MeshAttributes> attributes;  // one a mesh
@@ -31,6 +39,7 @@ struct Scene {
     std::vector<int64_t> first_slot;         // one an instance: where its slots begin
     std::vector<int32_t> slot_count;         // one an instance
     std::vector<float> randoms;              // one an instance, or none
+    PassTables passes;
     ShadingTables tables;
 };
 

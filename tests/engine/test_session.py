@@ -153,7 +153,7 @@ BAD_SETTINGS = {
     "leaves": {"border": (0, 0, 9, 5)},
     "samples": {"samples": 0},
     "max_bounces": {"max_bounces": -1},
-    "unknown passes: mist": {"passes": ("mist",)},
+    "unknown passes: shadow": {"passes": ("shadow",)},
 }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from .passes import PASS_NAMES
 from .scene_arrays import LIGHT_KINDS, RenderSettings, SceneArrays
 
 FEATURES = (
@@ -18,9 +19,8 @@ FEATURES = (
     "instances",
     "world",
     "environment",
-    "depth",
-    "normal",
     "alpha",
+    *PASS_NAMES,
 )
 
 

@@ -7,11 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from .cryptomatte import id_of
 from .scene_arrays import (
     LIGHT_FIELDS,
     MATERIAL_FIELDS,
     TEXTURE_FIELDS,
+    Identity,
     MeshArrays,
+    PassData,
     RenderSettings,
     SceneArrays,
     pack_table,
@@ -38,6 +41,8 @@ def build_native_scene(
     result.set_world(*(float(value) for value in scene.world))
     if scene.environment is not None:
         add_environment(result, scene)
+    if scene.pass_data is not None:
+        set_pass_data(result, scene, scene.pass_data)
     camera = scene.camera
     matrix = np.ascontiguousarray(camera.matrix, dtype=np.float64)
     window = np.array(camera.window, dtype=np.float64)
@@ -69,6 +74,24 @@ def set_textures(result: Any, scene: SceneArrays) -> None:
     result.set_textures(pack_table(scene.textures, TEXTURE_FIELDS))
     programs = scene.programs
     result.set_programs(programs.ops, programs.constants, programs.programs)
+
+
+def set_pass_data(result: Any, scene: SceneArrays, data: PassData) -> None:
+    """Indices and Cryptomatte ids of instances and materials, and what mist and occlusion need."""
+    instances = [
+        (who.index, id_of(who.name), id_of(who.asset))
+        for one in scene.instances
+        for who in one.identities or (Identity("", ""),) * len(one.transforms)
+    ]
+    materials = [(who.index, id_of(who.name)) for who in data.materials[: len(scene.materials)]]
+    materials += [(0, 0.0)] * (len(scene.materials) - len(materials))
+    result.set_pass_data(
+        np.array(instances, np.float32).reshape(-1, 3),
+        np.array(materials, np.float32).reshape(-1, 2),
+        data.matte_levels,
+        tuple(data.mist),
+        data.ambient_distance,
+    )
 
 
 def set_randoms(result: Any, scene: SceneArrays) -> None:

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .reference_camera import CameraRays, build_camera_rays, filter_offsets
+from .reference_passes import PassNotes
 from .reference_path import Estimate, RayCounts, World, build_world, trace_paths
 from .reference_scene import MISS
 from .scene_arrays import Float64, RenderSettings, SceneArrays
@@ -38,6 +39,10 @@ class ReferenceFilm:
     """(h, w, 3)"""
     depth: Float64
     """(h, w) distance along -Z at the pixel's centre, FAR_DEPTH for a miss"""
+    passes: dict[str, Float64] = field(default_factory=dict)
+    """(h, w, channels) sums of the passes asked for"""
+    position: Float64 | None = None
+    """(h, w, 3) where the rays through the pixels' centres end, 0 for a miss"""
     rays: RayCounts = field(default_factory=RayCounts)
     rejected_samples: int = 0
 
@@ -88,13 +93,16 @@ def make_film(world: World, settings: RenderSettings) -> ReferenceFilm:
     window = film_window(settings)
     shape = (window.height, window.width)
     pixels = np.arange(window.width * window.height)
-    depth = np.full(len(pixels), FAR_DEPTH)
+    depth, position = np.full(len(pixels), FAR_DEPTH), np.zeros((len(pixels), 3))
     for first in range(0, len(pixels), BATCH):
         part = pixels[first : first + BATCH]
         camera = pixel_rays(world.scene, settings, part, np.full((len(part), 2), 0.5))
         hits = world.traced.intersect(camera.rays)
         found = (camera.near + np.where(hits.triangle != MISS, hits.t, 0.0)) * camera.depth_per_length
-        depth[part] = np.where(hits.triangle != MISS, found, FAR_DEPTH)
+        hit = hits.triangle != MISS
+        depth[part] = np.where(hit, found, FAR_DEPTH)
+        along = np.where(hit, hits.t, 0.0)[:, None] * camera.rays.direction
+        position[part] = np.where(hit[:, None], camera.rays.origin + along, 0.0)
     zero = np.zeros((*shape, 3))
     return ReferenceFilm(
         np.zeros((REPLICATES, *shape, 3)),
@@ -102,6 +110,7 @@ def make_film(world: World, settings: RenderSettings) -> ReferenceFilm:
         np.zeros(shape),
         zero,
         depth.reshape(shape),
+        position=position.reshape(*shape, 3),
     )
 
 
@@ -180,7 +189,7 @@ def expose_step(
         even = rng.random((len(part), 2))
         place = 0.5 + filter_offsets(settings.pixel_filter, settings.filter_width, even)
         camera = pixel_rays(world.scene, settings, part, place, rng.random((len(part), 2)))
-        parts.append(trace_paths(world, camera, settings.max_bounces, rng))
+        parts.append(trace_paths(world, camera, settings.max_bounces, rng, settings.passes))
     rays = RayCounts(
         sum(p.rays.camera for p in parts),
         sum(p.rays.shadow for p in parts),
@@ -190,8 +199,17 @@ def expose_step(
         np.concatenate([p.radiance for p in parts]),
         np.concatenate([p.hit for p in parts]),
         np.concatenate([p.normal for p in parts]),
+        join_notes([p.notes for p in parts if p.notes is not None]),
         rays,
     )
+
+
+def join_notes(parts: list[PassNotes]) -> PassNotes | None:
+    """Notes of batches one after the other; None for none."""
+    if not parts:
+        return None
+    values = {name: np.concatenate([part.values[name] for part in parts]) for name in parts[0].values}
+    return PassNotes(values, np.concatenate([part.shares for part in parts]), parts[0].data)
 
 
 def add_estimate(film: ReferenceFilm, step: Step, batch: Estimate) -> None:
@@ -204,6 +222,10 @@ def add_estimate(film: ReferenceFilm, step: Step, batch: Estimate) -> None:
     film.coverage += batch.hit.reshape(height, width, step.samples).sum(axis=2)
     film.normals += batch.normal.reshape(height, width, step.samples, 3).sum(axis=2)
     film.counts[step.replicate] += step.samples
+    for name, values in (batch.notes.values if batch.notes is not None else {}).items():
+        values = np.where(finite[:, None] & np.isfinite(values), values, 0.0)
+        summed = values.reshape(height, width, step.samples, -1).sum(axis=2)
+        film.passes[name] = film.passes[name] + summed if name in film.passes else summed
     film.rays.camera += batch.rays.camera
     film.rays.shadow += batch.rays.shadow
     film.rays.bounce += batch.rays.bounce

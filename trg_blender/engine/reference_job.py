@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from .image_error import measure_error
 from .pixel_error import measure_pixel_error
 from .reference import add_estimate, expose, make_film
+from .reference_passes import REFERENCE_PASSES, read_reference_pass
 from .reference_path import World
 from .scene_arrays import Float32, Float64, RenderSettings
 
@@ -91,6 +92,17 @@ class ReferenceJob:
     def normal(self, out: Float32) -> None:
         with self._lock:
             out[...] = self._film.mean(self._film.normals)
+
+    def read_pass(self, name: str, out: Float32) -> None:
+        """Pass `name` into `out` (h, w, channels); 0 for those that this renderer does not have."""
+        out[...] = 0.0
+        with self._lock:
+            if name == "position":
+                out[...] = self._film.position
+            elif name == "sample_count":
+                out[...] = self._film.samples
+            elif name in REFERENCE_PASSES and name in self._film.passes:
+                out[...] = read_reference_pass(name, self._film.passes, self._film.samples)
 
     def replicates(self, sums: Float64, counts: NDArray[np.int64]) -> None:
         """Sums (8, h, w, 3) and samples (8,) of the replicates."""

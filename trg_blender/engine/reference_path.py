@@ -10,12 +10,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from .reference_bsdf import Bsdf, build_bsdf, evaluate_bsdf, sample_bsdf
+from .reference_bsdf import Bsdf, Scattered, build_bsdf, evaluate_bsdf, sample_bsdf
 from .reference_camera import CameraRays
 from .reference_emission import Glow, build_glow, pdf_glow, sample_glow
 from .reference_environment import Sky, build_sky, evaluate_sky, pdf_sky, sample_sky
 from .reference_lights import LightSample, hit_light, sample_light
 from .reference_math import mis_weight
+from .reference_passes import PassNotes, make_notes, note_shadow, note_source, note_vertex, split_bsdf
 from .reference_scene import FAR, MISS, Hits, Rays, TracedScene, build_traced_scene
 from .reference_sheets import has_sheets, pass_sheets, transmittance
 from .reference_surface import MaterialTable, Surface, build_material_table, build_surface
@@ -56,6 +57,8 @@ class Estimate:
     """(n,) whether the camera ray met a surface"""
     normal: Float64
     """(n, 3) shading normal of the first hit, 0 for a miss"""
+    notes: PassNotes | None = None
+    """what passes get; None when none is asked for"""
     rays: RayCounts = field(default_factory=RayCounts)
 
 
@@ -81,10 +84,17 @@ def build_world(scene: SceneArrays) -> World:
     )
 
 
-def trace_paths(world: World, camera: CameraRays, max_bounces: int, rng: np.random.Generator) -> Estimate:
-    """One sample for each camera ray."""
+def trace_paths(
+    world: World,
+    camera: CameraRays,
+    max_bounces: int,
+    rng: np.random.Generator,
+    passes: tuple[str, ...] = (),
+) -> Estimate:
+    """One sample for each camera ray, with what `passes` need beside it."""
     count = len(camera.near)
     estimate = Estimate(np.zeros((count, 3)), np.zeros(count, dtype=bool), np.zeros((count, 3)))
+    estimate.notes = make_notes(count, passes, world.scene.pass_data)
     paths = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count))
     for segment in range(max_bounces + 2):
         hits = world.traced.intersect(paths.rays)
@@ -95,7 +105,7 @@ def trace_paths(world: World, camera: CameraRays, max_bounces: int, rng: np.rand
             estimate.rays.camera += count
         else:
             estimate.rays.bounce += len(paths.index)
-            collect_lights(world, paths, hits, estimate)
+            collect_lights(world, paths, hits, estimate, segment)
         collect_world(world, paths, hits, estimate, segment)
         paths, hits = keep(paths, hits, hits.triangle != MISS)
         if len(paths.index) == 0:
@@ -104,13 +114,18 @@ def trace_paths(world: World, camera: CameraRays, max_bounces: int, rng: np.rand
         if segment == 0:
             estimate.hit[paths.index] = True
             estimate.normal[paths.index] = surface.ns
-        collect_emission(world, paths, hits, surface, estimate)
+        collect_emission(world, paths, hits, surface, (estimate, segment))
         # The ray after the last scattering only collects emission.
         if segment == max_bounces + 1:
             break
         bsdf = build_bsdf(surface)
-        gather_direct_light(world, paths, bsdf, rng, estimate)
-        paths = scatter(paths, bsdf, rng, roulette=segment >= ROULETTE_START)
+        if segment == 0 and estimate.notes is not None:
+            note_vertex(estimate.notes, paths.index, bsdf, hits.t + camera.near[paths.index])
+        gather_direct_light(world, paths, bsdf, rng, (estimate, segment))
+        scattered = sample_bsdf(bsdf, rng)
+        if segment == 0 and estimate.notes is not None:
+            estimate.notes.shares[paths.index] = split_bsdf(bsdf, scattered.wi, np.isinf(scattered.pdf))
+        paths = go_on(paths, bsdf.surface, scattered, rng, roulette=segment >= ROULETTE_START)
     return estimate
 
 
@@ -133,46 +148,62 @@ def collect_world(world: World, paths: Paths, hits: Hits, estimate: Estimate, se
         direction = paths.rays.direction[missed]
         weight = mis_weight(paths.pdf[missed], pdf_sky(world.sky, direction))[:, None]
         light = evaluate_sky(world.sky, direction) * weight
-        estimate.radiance[paths.index[missed]] += paths.throughput[missed] * light
-        return
-    estimate.radiance[paths.index[missed]] += paths.throughput[missed] * world.color
+    else:
+        light = world.color
+    add_light(estimate, paths.index[missed], paths.throughput[missed] * light, segment, "environment")
 
 
-def collect_lights(world: World, paths: Paths, hits: Hits, estimate: Estimate) -> None:
+def add_light(
+    estimate: Estimate, index: NDArray[np.int64], light: Float64, segment: int, source: str
+) -> None:
+    """Light from the end of segment `segment` of the paths `index`."""
+    estimate.radiance[index] += light
+    if estimate.notes is not None:
+        note_source(estimate.notes, index, light, segment, source)
+
+
+def collect_lights(world: World, paths: Paths, hits: Hits, estimate: Estimate, segment: int) -> None:
     """Adds the lights with extent that bounce rays cross on their way."""
     for light in world.scene.lights:
         seen = hit_light(light, paths.rays.origin, paths.rays.direction, hits.t)
         if seen is not None:
             weight = mis_weight(paths.pdf, seen.pdf)[:, None]
-            estimate.radiance[paths.index] += paths.throughput * seen.radiance * weight
+            light_seen = paths.throughput * seen.radiance * weight
+            add_light(estimate, paths.index, light_seen, segment, "emission")
 
 
-def collect_emission(world: World, paths: Paths, hits: Hits, surface: Surface, estimate: Estimate) -> None:
-    """Adds the glow of the surface that was hit."""
+def collect_emission(
+    world: World, paths: Paths, hits: Hits, surface: Surface, place: tuple[Estimate, int]
+) -> None:
+    """Adds the glow of the surface that was hit; `place` is the estimate and the segment."""
     other = np.zeros(len(paths.index))
     if world.glow is not None:
         other = pdf_glow(world.glow, world.traced.triangles, hits.triangle, paths.rays.direction, hits.t)
     weight = mis_weight(paths.pdf, other)[:, None]
-    estimate.radiance[paths.index] += paths.throughput * surface.material.emission * weight
+    light = paths.throughput * surface.material.emission * weight
+    add_light(place[0], paths.index, light, place[1], "emission")
 
 
 def gather_direct_light(
-    world: World, paths: Paths, bsdf: Bsdf, rng: np.random.Generator, estimate: Estimate
+    world: World, paths: Paths, bsdf: Bsdf, rng: np.random.Generator, place: tuple[Estimate, int]
 ) -> None:
     """Next-event estimation: one sample of every light, of the environment, and one of all glowing
-    triangles together."""
+    triangles together. `place` is the estimate and the segment."""
     position = bsdf.surface.position
     if world.sky is not None:
-        add_light_sample(world, paths, bsdf, sample_sky(world.sky, len(position), rng), estimate)
+        add_light_sample(world, paths, bsdf, sample_sky(world.sky, len(position), rng), place)
     for light in world.scene.lights:
-        add_light_sample(world, paths, bsdf, sample_light(light, position, rng), estimate)
+        add_light_sample(world, paths, bsdf, sample_light(light, position, rng), place)
     if world.glow is not None:
         sample = sample_glow(world.glow, world.traced.triangles, world.materials, position, rng)
-        add_light_sample(world, paths, bsdf, sample, estimate)
+        add_light_sample(world, paths, bsdf, sample, place)
 
 
-def add_light_sample(world: World, paths: Paths, bsdf: Bsdf, sample: LightSample, estimate: Estimate) -> None:
+def add_light_sample(
+    world: World, paths: Paths, bsdf: Bsdf, sample: LightSample, place: tuple[Estimate, int]
+) -> None:
     """Adds one light's sample where it is worth a shadow ray and nothing stands between."""
+    estimate, segment = place
     value, pdf = evaluate_bsdf(bsdf, sample.wi)
     weight = mis_weight(sample.pdf, pdf)[:, None]
     light = paths.throughput * value * sample.radiance * weight
@@ -189,17 +220,21 @@ def add_light_sample(world: World, paths: Paths, bsdf: Bsdf, sample: LightSample
     else:
         passed = np.where(world.traced.occluded(rays)[:, None], 0.0, 1.0)
     estimate.radiance[paths.index[rows]] += passed * light[rows]
+    if estimate.notes is not None:
+        shares = split_bsdf(bsdf, sample.wi, np.zeros(len(rows), bool))[rows] if segment == 0 else None
+        note_shadow(estimate.notes, paths.index[rows], passed * light[rows], shares)
 
 
-def scatter(paths: Paths, bsdf: Bsdf, rng: np.random.Generator, roulette: bool) -> Paths:
+def go_on(
+    paths: Paths, surface: Surface, scattered: Scattered, rng: np.random.Generator, roulette: bool
+) -> Paths:
     """The next segments; paths without weight end, dim ones by Russian roulette."""
-    scattered = sample_bsdf(bsdf, rng)
     throughput = paths.throughput * scattered.weight
     alive = np.any(throughput != 0.0, axis=1)
     if roulette:
         survival = np.clip(throughput.max(axis=1), 0.05, 0.95)
         alive &= rng.random(len(survival)) < survival
         throughput = throughput / survival[:, None]
-    start = bsdf.surface.leave(scattered.wi)[alive]
+    start = surface.leave(scattered.wi)[alive]
     rays = Rays(start, scattered.wi[alive], np.full(int(alive.sum()), FAR))
     return Paths(rays, throughput[alive], scattered.pdf[alive], paths.index[alive])

@@ -21,7 +21,7 @@ from .from_blender import SceneReader
 from .native import ACCELERATORS
 from .pace import Pace
 from .report import Progress, format_progress, with_source
-from .result import Failure, border_of, records, register_passes, wanted_passes, write_pixels
+from .result import Failure, border_of, records, register_passes, stamp_mattes, wanted_passes, write_pixels
 from .run_text import ENGINE_ID
 from .scene_arrays import RenderSettings, SceneArrays
 from .to_blender import requested_modes
@@ -129,7 +129,8 @@ class TRGRenderEngine(bpy.types.RenderEngine):
         begin = time.perf_counter()
         self.update_stats("TRG", "reading the scene")
         size = (self.resolution_x, self.resolution_y)
-        arrays = SceneReader().read(scene, depsgraph, size)
+        passes = wanted_passes(depsgraph.view_layer)
+        arrays = SceneReader(passes=passes).read(scene, depsgraph, size)
         modes = requested_modes(depsgraph.scene)
         settings = settings_of(scene, depsgraph.view_layer, size, modes, arrays.warnings)
         for warning in arrays.warnings:
@@ -164,6 +165,7 @@ class TRGRenderEngine(bpy.types.RenderEngine):
             job.cancel()
         outcome = job.result()
         write_pixels(result, outcome.pixels, outcome.passes)
+        stamp_mattes(result, frame.arrays, frame.settings.passes)
         report = with_source(outcome.report, frame.file, frame.number, frame.seconds)
         records.keep_report(frame.scene_name, report)
         if interrupted:

@@ -3,26 +3,97 @@
 from __future__ import annotations
 
 import threading
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import bpy
 import numpy as np
 
+from .cryptomatte import metadata
 from .report import Progress
-from .scene_arrays import Float32
+from .scene_arrays import Float32, SceneArrays
+
+_LONG = bpy.app.version >= (5, 0)
+"""Blender 5 spells names of passes out."""
+
+
+@dataclass(frozen=True, slots=True)
+class BlenderPass:
+    """How Blender asks for a pass and what it calls it."""
+
+    switch: str
+    """property of the view layer, or of its `trg` where it begins with a dot"""
+    name: str
+    """without the two digits of a matte's layers"""
+    channels: str
+    kind: str
+    """VALUE, VECTOR or COLOR"""
+
+
+def _light(kind: str, part: str) -> BlenderPass:
+    short = {"diffuse": "Diff", "glossy": "Gloss", "transmission": "Trans"}[kind] + {
+        "direct": "Dir",
+        "indirect": "Ind",
+        "color": "Col",
+    }[part]
+    name = f"{kind} {part}".title() if _LONG else short
+    return BlenderPass(f"use_pass_{kind}_{part}", name, "RGB", "COLOR")
+
+
+def _named(long: str, short: str) -> str:
+    return long if _LONG else short
+
 
 PASSES = {
-    "depth": ("use_pass_z", "Depth", "Z", "VALUE"),
-    "normal": ("use_pass_normal", "Normal", "XYZ", "VECTOR"),
+    "depth": BlenderPass("use_pass_z", "Depth", "Z", "VALUE"),
+    "normal": BlenderPass("use_pass_normal", "Normal", "XYZ", "VECTOR"),
+    "position": BlenderPass("use_pass_position", "Position", "XYZ", "VECTOR"),
+    "uv": BlenderPass("use_pass_uv", "UV", "UVA", "VECTOR"),
+    "mist": BlenderPass("use_pass_mist", "Mist", "Z", "VALUE"),
+    "object_index": BlenderPass("use_pass_object_index", _named("Object Index", "IndexOB"), "X", "VALUE"),
+    "material_index": BlenderPass(
+        "use_pass_material_index", _named("Material Index", "IndexMA"), "X", "VALUE"
+    ),
+    **{
+        f"{kind}_{part}": _light(kind, part)
+        for kind in ("diffuse", "glossy", "transmission")
+        for part in ("direct", "indirect", "color")
+    },
+    "emission": BlenderPass("use_pass_emit", _named("Emission", "Emit"), "RGB", "COLOR"),
+    "environment": BlenderPass("use_pass_environment", _named("Environment", "Env"), "RGB", "COLOR"),
+    "ambient_occlusion": BlenderPass(
+        "use_pass_ambient_occlusion", _named("Ambient Occlusion", "AO"), "RGB", "COLOR"
+    ),
+    "cryptomatte_object": BlenderPass("use_pass_cryptomatte_object", "CryptoObject", "RGBA", "COLOR"),
+    "cryptomatte_material": BlenderPass("use_pass_cryptomatte_material", "CryptoMaterial", "RGBA", "COLOR"),
+    "cryptomatte_asset": BlenderPass("use_pass_cryptomatte_asset", "CryptoAsset", "RGBA", "COLOR"),
+    "denoising_albedo": BlenderPass(".use_pass_denoising", "Denoising Albedo", "RGB", "COLOR"),
+    "denoising_normal": BlenderPass(".use_pass_denoising", "Denoising Normal", "XYZ", "VECTOR"),
+    "sample_count": BlenderPass(".use_pass_sample_count", "Sample Count", "X", "VALUE"),
+    "standard_error": BlenderPass(".use_pass_standard_error", "Standard Error", "X", "VALUE"),
+    "error_flags": BlenderPass(".use_pass_standard_error", "Error Flags", "X", "VALUE"),
 }
-"""Our name -> the view layer's switch, Blender's name, channels and type."""
+"""Our name -> how Blender has it."""
 
 
 def wanted_passes(layer: bpy.types.ViewLayer) -> tuple[str, ...]:
     """Passes besides combined that `layer` asks for."""
-    return tuple(name for name, (switch, *_) in PASSES.items() if getattr(layer, switch))
+    own = getattr(layer, "trg", None)
+    wanted = []
+    for name, each in PASSES.items():
+        holder, switch = (own, each.switch[1:]) if each.switch.startswith(".") else (layer, each.switch)
+        if getattr(holder, switch, False):
+            wanted.append(name)
+    return tuple(wanted)
+
+
+def layers_of(name: str, levels: int) -> list[str]:
+    """Blender's names of a pass: a matte has one for every two ids of a pixel."""
+    each = PASSES[name]
+    if not name.startswith("cryptomatte"):
+        return [each.name]
+    return [f"{each.name}{number:02d}" for number in range((levels + 1) // 2)]
 
 
 def register_passes(
@@ -31,8 +102,9 @@ def register_passes(
     """Announces the passes of `layer`, for the compositor's sockets and for files."""
     engine.register_pass(scene, layer, "Combined", 4, "RGBA", "COLOR")
     for name in wanted_passes(layer):
-        _, blender_name, channels, kind = PASSES[name]
-        engine.register_pass(scene, layer, blender_name, len(channels), channels, kind)
+        each = PASSES[name]
+        for blender_name in layers_of(name, layer.pass_cryptomatte_depth):
+            engine.register_pass(scene, layer, blender_name, len(each.channels), each.channels, each.kind)
 
 
 def border_of(
@@ -49,10 +121,38 @@ def border_of(
 def write_pixels(result: bpy.types.RenderResult, picture: Float32, passes: Mapping[str, Float32]) -> None:
     """Puts combined (h, w, 4) and the passes that `result` has into its first layer; row 0 is the bottom."""
     pixels = {"Combined": picture}
-    pixels.update({PASSES[name][1]: values for name, values in passes.items() if name in PASSES})
+    for name, values in passes.items():
+        pixels.update(split_layers(name, values))
     for each in result.layers[0].passes:
         if each.name in pixels:
             each.rect.foreach_set(np.ascontiguousarray(pixels[each.name], np.float32).reshape(-1))
+
+
+def split_layers(name: str, values: Float32) -> dict[str, Float32]:
+    """Pictures by Blender's names; a matte (h, w, 2 ids) in layers of two ids, the last filled up."""
+    if not name.startswith("cryptomatte"):
+        return {PASSES[name].name: values}
+    levels = values.shape[-1] // 2
+    if levels % 2:
+        values = np.concatenate([values, np.zeros_like(values[..., :2])], axis=-1)
+    names = layers_of(name, levels)
+    return {each: values[..., 4 * k : 4 * k + 4] for k, each in enumerate(names)}
+
+
+def stamp_mattes(result: bpy.types.RenderResult, arrays: SceneArrays, passes: Sequence[str]) -> None:
+    """Writes into `result` what its Cryptomatte layers are called and whom their ids stand for."""
+    if arrays.pass_data is None:
+        return
+    who = [each for instance in arrays.instances for each in instance.identities]
+    names = {
+        "cryptomatte_object": [each.name for each in who],
+        "cryptomatte_asset": [each.asset for each in who],
+        "cryptomatte_material": [each.name for each in arrays.pass_data.materials],
+    }
+    for name in sorted(names.keys() & set(passes)):
+        layer = f"{result.layers[0].name}.{PASSES[name].name}"
+        for field_name, value in metadata(layer, names[name]).items():
+            result.stamp_data_add_field(field_name, value)
 
 
 FAILURE_KINDS = ("program", "scene", "budget", "cancelled", "unavailable", "internal")

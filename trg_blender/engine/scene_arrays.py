@@ -59,6 +59,32 @@ class MeshArrays:
     """scale and offset: generated coordinates are place * scale + offset; None is the place itself"""
 
 
+@dataclass(frozen=True, slots=True)
+class Identity:
+    """Who an instance is, for passes."""
+
+    name: str
+    """of its object"""
+    asset: str = ""
+    """of the topmost parent of its object"""
+    index: int = 0
+    """pass index"""
+
+
+@dataclass(frozen=True, slots=True)
+class PassData:
+    """What passes ask of a scene beside its shape; only there when one of them is wanted."""
+
+    materials: tuple[Identity, ...] = ()
+    """of SceneArrays.materials, without assets; fewer: the rest have no id"""
+    matte_levels: int = 6
+    """ids that a pixel of a Cryptomatte keeps"""
+    mist: tuple[float, float, float] = (5.0, 25.0, 2.0)
+    """start, depth, exponent: ((distance - start) / depth) ** exponent between 0 and 1"""
+    ambient_distance: float = 10.0
+    """how far off a surface occludes another"""
+
+
 @dataclass(slots=True)
 class InstanceArrays:
     """Copies of one mesh that share their materials."""
@@ -71,6 +97,8 @@ class InstanceArrays:
     origin: str = ""
     randoms: Float32 | None = None
     """(k,) what the Object Info node calls Random, 0 to 1; None is 0"""
+    identities: tuple[Identity, ...] = ()
+    """one a copy; empty when no pass asks for them"""
 
 
 @dataclass(slots=True)
@@ -261,6 +289,7 @@ class SceneArrays:
     environment: Environment | None = None
     """takes the place of `world`"""
     transparent_film: bool = False
+    pass_data: PassData | None = None
     warnings: list[str] = field(default_factory=list)
 
 
@@ -293,6 +322,6 @@ class RenderSettings:
     triangle_test: str = "watertight"
     integrator: str = "path"
     passes: tuple[str, ...] = ()
-    """any of depth, normal; combined is always there"""
+    """any of passes.PASS_NAMES; combined is always there"""
     border: tuple[int, int, int, int] | None = None
     """x_min, y_min, x_max, y_max in pixels of the whole picture (max exclusive): render only that part"""

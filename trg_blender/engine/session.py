@@ -19,7 +19,7 @@ from .errors import SceneError
 from .image_error import Evidence, PictureError, estimate_error
 from .native import ACCELERATORS, load_native
 from .native_scene import build_native_scene
-from .passes import PassSource, film_shape, job_passes, read_combined, read_passes
+from .passes import KERNEL_PASSES, PassSource, film_shape, job_passes, read_combined, read_passes
 from .report import HistoryEntry, Progress, RenderFacts, build_report, seconds_left
 from .scene_arrays import Float32, Float64, RenderSettings, SceneArrays
 from .scene_check import check_scene, check_settings
@@ -49,7 +49,7 @@ class Result:
     pixels: Float32
     """(h, w, 4) linear, associated alpha"""
     passes: dict[str, Float32]
-    """depth (h, w), normal (h, w, 3): those asked for"""
+    """those asked for: (h, w), or (h, w, channels) (passes.py)"""
     report: dict[str, Any]
     replicate_sums: Float64
     """(8, h, w, 3) sums of radiance"""
@@ -87,6 +87,8 @@ def start(scene: SceneArrays, settings: RenderSettings) -> RenderJob:
     if settings.integrator not in INTEGRATORS:
         raise Unavailable(f"integrator {settings.integrator}: not built yet in this version")
     asked = replace(settings, passes=job_passes(scene, settings))
+    if settings.device == "embree":
+        warnings += missing_passes(settings)
     started = start_native(scene, asked) if settings.device == "cpu" else start_reference(scene, asked)
     return RenderJob(scene, settings, started, warnings)
 
@@ -116,6 +118,14 @@ def start_native(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
     return StartedJob(
         job, statistics, native.info().get("instruction_set"), settings.threads or os.cpu_count() or 1
     )
+
+
+def missing_passes(settings: RenderSettings) -> list[str]:
+    """A line on the passes that the reference renderer leaves empty."""
+    from .reference_passes import REFERENCE_PASSES
+
+    missing = [name for name in KERNEL_PASSES if name in settings.passes and name not in REFERENCE_PASSES]
+    return [f"device embree: empty passes: {', '.join(missing)}"] if missing else []
 
 
 def start_reference(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
@@ -179,7 +189,7 @@ class RenderJob:
 
     def passes(self) -> dict[str, Float32]:
         """The passes asked for, as far as they have come."""
-        return read_passes(self._started.job, self._settings, film_shape(self._settings))
+        return read_passes(self._started.job, self._scene, self._settings, film_shape(self._settings))
 
     def result(self) -> Result:
         """Waits for the end, then the pictures and the report."""

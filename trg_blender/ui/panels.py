@@ -9,7 +9,7 @@ import bpy
 
 from ..engine.result import records
 from ..engine.run_text import ENGINE_ID
-from . import live_parameters
+from . import live_parameters, pass_panels
 
 ADOPTED_BY_NAME = {
     "MATERIAL_PT_preview",
@@ -115,18 +115,6 @@ class TRG_RENDER_PT_report(_RenderPanel, bpy.types.Panel):
             self.layout.label(text=warning, icon="ERROR")
 
 
-class TRG_VIEWLAYER_PT_passes(_RenderPanel, bpy.types.Panel):
-    """Passes besides Combined."""
-
-    bl_label = "Passes"
-    bl_context = "view_layer"
-
-    def draw(self, context: bpy.types.Context) -> None:
-        column = self.layout.column()
-        column.prop(context.view_layer, "use_pass_z", text="Depth")
-        column.prop(context.view_layer, "use_pass_normal", text="Normal")
-
-
 def report_lines(report: dict[str, Any]) -> list[str]:
     """The figures of a report that an artist asks for first."""
     error, seconds = report["error"], report["seconds"]
@@ -145,7 +133,7 @@ def _adopted() -> Iterator[type]:
     """Panels of Blender that TRG shows."""
     for panel in bpy.types.Panel.__subclasses__():
         engines = getattr(panel, "COMPAT_ENGINES", None)
-        if engines is None or panel.__module__ == __name__:
+        if engines is None or panel in CLASSES:
             continue
         if "BLENDER_RENDER" in engines or panel.__name__ in ADOPTED_BY_NAME:
             yield panel
@@ -156,7 +144,7 @@ CLASSES = (
     TRG_RENDER_PT_parameters,
     TRG_RENDER_PT_sampling,
     TRG_RENDER_PT_report,
-    TRG_VIEWLAYER_PT_passes,
+    *pass_panels.CLASSES,
 )
 
 
@@ -170,7 +158,7 @@ def register() -> None:
 def unregister() -> None:
     for panel in bpy.types.Panel.__subclasses__():
         engines = getattr(panel, "COMPAT_ENGINES", None)
-        if engines is not None and panel.__module__ != __name__:
+        if engines is not None and panel not in CLASSES:
             engines.discard(ENGINE_ID)
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

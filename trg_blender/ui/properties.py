@@ -115,16 +115,37 @@ class TRGSceneSettings(bpy.types.PropertyGroup):
     )
 
 
-CLASSES = (TRGParameters, TRGSceneSettings)
+class TRGViewLayerSettings(bpy.types.PropertyGroup):
+    """Passes that Blender itself has no switch for."""
+
+    use_pass_denoising: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Denoising Data",
+        description="Albedo and normal for the Denoise node of the compositor",
+        default=False,
+    )
+    use_pass_sample_count: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Sample Count", description="Samples that each pixel got", default=False
+    )
+    use_pass_standard_error: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Standard Error",
+        description="Standard error of each pixel's luminance, and where it is not to be believed "
+        "(1: no light seen, 2: one replicate alone has it)",
+        default=False,
+    )
+
+
+CLASSES = (TRGParameters, TRGSceneSettings, TRGViewLayerSettings)
 
 
 def register() -> None:
     for each in CLASSES:
         bpy.utils.register_class(each)
     bpy.types.Scene.trg = bpy.props.PointerProperty(type=TRGSceneSettings)
+    bpy.types.ViewLayer.trg = bpy.props.PointerProperty(type=TRGViewLayerSettings)
 
 
 def unregister() -> None:
+    del bpy.types.ViewLayer.trg
     del bpy.types.Scene.trg
     for each in reversed(CLASSES):
         bpy.utils.unregister_class(each)

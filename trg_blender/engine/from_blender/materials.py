@@ -10,7 +10,8 @@ from dataclasses import dataclass, field
 
 import bpy
 
-from ..scene_arrays import Material
+from ..scene_arrays import Identity, Material
+from .identities import identity_of_material
 from .shaders import ShaderReader
 from .sockets import active_tree
 from .textures import TextureTable
@@ -23,6 +24,8 @@ class MaterialTable:
     warnings: list[str]
     rows: list[Material] = field(default_factory=list)
     textures: TextureTable = field(init=False)
+    identities: list[Identity] = field(default_factory=list)
+    """of the rows, for passes"""
     _index: dict[int, int] = field(default_factory=dict)
     _attributes: dict[int, frozenset[int]] = field(default_factory=dict)
     """row -> numbers of the corner attributes that its textures read"""
@@ -37,6 +40,7 @@ class MaterialTable:
             reader = ShaderReader("" if material is None else f"material {material.name!r}", self.textures)
             self._index[key] = len(self.rows)
             self.rows.append(_read_material(material, reader))
+            self.identities.append(identity_of_material(material))
             self._finish(len(self.rows) - 1, reader)
         return self._index[key]
 

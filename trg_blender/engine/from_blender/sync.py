@@ -7,10 +7,12 @@ from dataclasses import dataclass, field
 import bpy
 import numpy as np
 from mathutils import Matrix
+from numpy.typing import NDArray
 
 from ..errors import SceneError
-from ..scene_arrays import Float32, InstanceArrays, MeshArrays, SceneArrays
+from ..scene_arrays import Float32, Identity, InstanceArrays, MeshArrays, SceneArrays
 from .camera import read_camera
+from .identities import NEEDS_IDENTITIES, read_identities, read_pass_data
 from .lights import read_light
 from .materials import MaterialTable
 from .meshes import MeshRequest, read_mesh
@@ -28,6 +30,9 @@ class SceneReader:
 
     fast: bool = True
     """look at Blender's mesh arrays in place where that is safe"""
+
+    passes: tuple[str, ...] = ()
+    """those that will be asked for: some need names or UV maps that are else left out"""
 
     def read(
         self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, size: tuple[int, int]
@@ -50,12 +55,14 @@ class SceneReader:
             environment=world.environment,
             transparent_film=scene.render.film_transparent,
         )
-        _Meshes(arrays, table, self.fast, warnings).add_all(found)
+        identities = read_identities(depsgraph) if NEEDS_IDENTITIES.intersection(self.passes) else []
+        _Meshes(arrays, table, self.fast, warnings, "uv" in self.passes, identities).add_all(found)
         for owner, row in found.lights:
             light = read_light(owner, _matrix(found.transforms[row]), warnings)
             if light is not None:
                 arrays.lights.append(light)
         arrays.materials = table.rows
+        arrays.pass_data = read_pass_data(scene, depsgraph.view_layer_eval, table.identities, self.passes)
         textures = table.textures
         arrays.textures, arrays.images = textures.textures, textures.pool.images
         arrays.programs, arrays.attributes = textures.programs.arrays(), textures.attributes
@@ -75,13 +82,20 @@ class _Meshes:
     table: MaterialTable
     fast: bool
     warnings: list[str]
+    with_uvs: bool
+    """of every mesh, whether its materials ask for them or not"""
+    identities: list[Identity]
+    """by rows of Found.transforms; empty when no pass needs them"""
     known: dict[tuple[int, int, tuple[int, ...], str], int] = field(default_factory=dict)
 
     def add_all(self, found: Found) -> None:
         for group in found.groups:
-            self._add(group, found.transforms[group.rows], found.randoms[group.rows])
+            identities = np.array([self.identities[row] for row in group.rows if self.identities], object)
+            self._add(group, found.transforms[group.rows], found.randoms[group.rows], identities)
 
-    def _add(self, group: MeshGroup, transforms: Float32, randoms: Float32) -> None:
+    def _add(
+        self, group: MeshGroup, transforms: Float32, randoms: Float32, identities: NDArray[np.object_]
+    ) -> None:
         slots = tuple(self.table.add(material) for material in group.materials)
         index = self._mesh(group, slots)
         mesh = self.arrays.meshes[index]
@@ -91,6 +105,7 @@ class _Meshes:
         if not finite.all():
             self.warnings.append(f"object {group.origin!r}: a transform that is not finite is left out")
             transforms, randoms = transforms[finite], randoms[finite]
+            identities = identities[finite] if len(identities) else identities
         volume = np.abs(np.linalg.det(transforms[:, :, :3].astype(np.float64)))
         has_volume = volume > FLAT_DETERMINANT
         solid = transforms[has_volume]
@@ -98,13 +113,25 @@ class _Meshes:
         if len(solid):
             self.arrays.instances.append(
                 InstanceArrays(
-                    index, np.ascontiguousarray(solid), materials, group.origin, randoms[has_volume]
+                    index,
+                    np.ascontiguousarray(solid),
+                    materials,
+                    group.origin,
+                    randoms[has_volume],
+                    tuple(identities[has_volume]) if len(identities) else (),
                 )
             )
-        for flat in transforms[~has_volume]:
-            self._add_flat(mesh, flat, materials, group.origin)
+        for row in np.flatnonzero(~has_volume):
+            who = tuple(identities[row : row + 1])
+            self._add_flat(mesh, transforms[row], materials, (group.origin, who))
 
-    def _add_flat(self, mesh: MeshArrays, transform: Float32, materials: np.ndarray, origin: str) -> None:
+    def _add_flat(
+        self,
+        mesh: MeshArrays,
+        transform: Float32,
+        materials: np.ndarray,
+        named: tuple[str, tuple[Identity, ...]],
+    ) -> None:
         """One instance scaled to a sheet, a line or a point, as a mesh of its own in world space."""
         if np.linalg.matrix_rank(transform[:, :3]) < 2:
             return
@@ -113,7 +140,10 @@ class _Meshes:
         baked.attributes = mesh.attributes
         self.arrays.meshes.append(baked)
         identity = np.eye(3, 4, dtype=np.float32)[None]
-        self.arrays.instances.append(InstanceArrays(len(self.arrays.meshes) - 1, identity, materials, origin))
+        origin, who = named
+        self.arrays.instances.append(
+            InstanceArrays(len(self.arrays.meshes) - 1, identity, materials, origin, None, who)
+        )
 
     def _mesh(self, group: MeshGroup, slots: tuple[int, ...]) -> int:
         wanted = self.table.attributes_of(slots)
@@ -121,7 +151,7 @@ class _Meshes:
         if key not in self.known:
             names = self.table.textures.attributes
             extra = tuple((number, names[number]) for number in wanted if number)
-            request = MeshRequest(len(slots), 0 in wanted, extra, self.fast)
+            request = MeshRequest(len(slots), self.with_uvs or 0 in wanted, extra, self.fast)
             self.known[key] = len(self.arrays.meshes)
             mesh = read_mesh(group.mesh, request, self.warnings)
             if is_unedited(mesh, group.shape):
