@@ -33,6 +33,8 @@ TESTS = ("watertight", "classic")
 SETS = ("auto", "baseline", "avx2", "avx512")
 SCENES = 4
 MOST_PARTS = 60
+ENOUGH = 20_000
+"""after so many calls each kind must have succeeded: else the contract has changed and this tool has not"""
 
 
 class BrokenPromise(Exception):
@@ -63,7 +65,8 @@ class Subject:
 
 def plain_materials(count: int) -> Any:
     names = trg_native.MATERIAL_FIELDS
-    plain = {"ior": 1.5, **{name: -1 for name in names if name.endswith("texture")}}
+    plain = {"ior": 1.5, "coat_ior": 1.5, **{name: -1 for name in names if name.endswith("_texture")}}
+    plain.update({"interface": 0, "multiscatter": 1, "metal_grazing": 0, "alpha": 1})
     return np.tile(np.array([plain.get(name, 0.5) for name in names], np.float32), (count, 1))
 
 
@@ -84,6 +87,7 @@ class Fuzzer:
             self.add_instances: 3, self.set_tables: 6, self.set_texture_data: 4, self.set_camera: 4,
             self.build: 10, self.update_transforms: 5, self.update_vertices: 5, self.query: 25,
             self.query_badly: 5, self.start_render: 4, self.use_job: 8, self.drop: 2,
+            self.set_surroundings: 3, self.scatter: 2,
         }  # fmt: skip
         self.calls: list[Callable[[], None]] = list(weights)
         self.weights = list(weights.values())
@@ -198,7 +202,39 @@ class Fuzzer:
         v = self.values
         clip = v.pick(((0.0, 1e30), (1e-3, 10.0), (1.0, 0.0), (float("nan"), 1.0)))
         matrix = v.transforms(1)[0].astype(np.float64)
-        self.scene().set_camera(v.index(2), v.spoil(matrix), v.spoil(v.window()), *clip)
+        self.scene().set_camera(v.index(3), v.spoil(matrix), v.spoil(v.window()), *clip, *v.lens())
+
+    def set_surroundings(self) -> None:
+        """An environment, or the filter of the film."""
+        v, scene = self.values, self.scene()
+        if v.flip():
+            names = ("box", "gaussian", "blackman_harris", "tent")
+            scene.set_filter(v.pick(names), v.pick((1.0, 1.5, 0.01, 1e30, 0.0, np.nan)))
+            return
+        pixels = np.abs(v.floats((v.pick((1, 2, 9)), v.pick((1, 3, 16)), 3)))
+        rotation = v.transforms(1)[0][:, :3].astype(np.float64)
+        scene.set_environment(v.spoil(pixels), v.spoil(np.ascontiguousarray(rotation)), v.flip())
+
+    def scatter(self) -> None:
+        """One material alone: its values and samples are finite, however it is lit."""
+        v = self.values
+        table = np.minimum(v.materials(trg_native.MATERIAL_FIELDS), np.float32(1e6))
+        directions = v.floats((2, 20, 3)) + np.float32([0, 0, 1e-3])
+        directions[0, :, 2] = np.abs(directions[0, :, 2])
+        with np.errstate(all="ignore"):
+            wo, wi = directions / np.linalg.norm(directions, axis=2, keepdims=True)
+        value, pdf = np.full((20, 3), np.nan, np.float32), np.full(20, np.nan, np.float32)
+        trg_native.bsdf_eval(v.spoil(table[0]), v.spoil(wo), v.spoil(wi), v.flip(), value, pdf)
+        sound = np.isfinite(wo).all(1) & np.isfinite(wi).all(1)
+        expect(
+            bool(np.isfinite(value[sound]).all() and (pdf[sound] >= 0).all()),
+            f"bsdf_eval: {table[0].tolist()}",
+        )
+        uniforms = v.numbers.random((20, 3)).astype(np.float32)
+        drawn, weight = np.full((2, 20, 3), np.nan, np.float32)
+        trg_native.bsdf_sample(table[0], wo, v.spoil(uniforms), v.flip(), drawn, weight, pdf)
+        sound = np.isfinite(wo).all(1) & (pdf >= 0)
+        expect(bool(np.isfinite(weight[sound]).all()), f"bsdf_sample: {table[0].tolist()}")
 
     def build(self) -> None:
         stats = self.scene().build(self.values.threads(), self.values.pick((0, 1, 1e9, 1e300, -1, np.nan)))
@@ -261,7 +297,7 @@ class Fuzzer:
         scene = self.built_scene()
         job = scene.start_render(
             width, height, v.pick((1, 2, 9, 20, 0)), v.pick((0, 1 << 63)), v.pick((0, 1, 4, 4, -1)),
-            v.threads(), passes, border,
+            v.threads(), passes, border, *v.stops(),
         )  # fmt: skip
         size = (height, width) if border is None else (border[3] - border[1], border[2] - border[0])
         self.jobs.append((job, size))
@@ -272,7 +308,7 @@ class Fuzzer:
         if not self.jobs:
             return
         job, (height, width) = self.random.choice(self.jobs)
-        v, action = self.values, self.random.randrange(6)
+        v, action = self.values, self.random.randrange(7)
         out = np.full((height, width, 4), np.nan, np.float32)
         if action == 0:
             job.cancel()
@@ -288,6 +324,12 @@ class Fuzzer:
         elif action == 4:
             error = job.error()
             expect(error["mse"] is None or error["mse"] >= 0, f"error: {error}")
+        elif action == 5:
+            half_width, flags = (
+                np.full((height, width), np.nan, np.float32),
+                np.zeros((height, width), np.uint8),
+            )
+            job.pixel_error(v.spoil(half_width), v.spoil(flags))
         else:
             sums, counts = np.empty((8, height, width, 3)), np.empty(8, np.int64)
             job.replicates(v.spoil(sums), v.spoil(counts))
@@ -327,10 +369,17 @@ def main() -> int:
         thread.start()
     for thread in runs:
         thread.join()
-    succeeded = {name: sum(f.done.get(name, 0) for f in fuzzers) for name in sorted(fuzzers[0].done)}
+    succeeded = {
+        name: sum(f.done.get(name, 0) for f in fuzzers)
+        for name in sorted(set().union(*(f.done for f in fuzzers)))
+    }
     seconds = time.perf_counter() - start
     sys.stdout.write(f"{arguments.calls} calls, seed {arguments.seed}, {seconds:.0f} s\n")
     sys.stdout.write(f"succeeded: {succeeded}\n")
+    if arguments.calls >= ENOUGH:
+        findings += [
+            f"{c.__name__} never succeeded" for c in fuzzers[0].calls if not succeeded.get(c.__name__)
+        ]
     for finding in findings:
         sys.stdout.write(f"seed {arguments.seed}, {finding}\n")
     return 1 if findings else 0

@@ -14,8 +14,9 @@ Item = TypeVar("Item")
 ODD = np.array(
     [0.0, -0.0, 1e-45, -1e-38, 1e-20, 1e-7, 1e7, 1e18, -2e18, 3e38, np.inf, -np.inf, np.nan], np.float32
 )
-INDEX_COLUMNS = 4
-"""the last columns of a material are indices of textures"""
+WHOLE_MATERIAL = {"interface": 3, "multiscatter": 2, "metal_grazing": 2}
+WHOLE_TEXTURE = {"wrap": 4, "filter": 3, "channel": 3, "unassociate": 2, "uv_map": 3}
+"""columns that hold one of so many whole numbers, from 0"""
 
 
 class Values:
@@ -101,7 +102,7 @@ class Values:
         return self.pick(right) if self.flip(0.95) else self.pick((("gold",), 3, (1,), "depth"))
 
     def window(self) -> NDArray[np.float64]:
-        return np.array([-1.0, 1, -1, 1]) * self.pick((1, 0.1, 0, 1e30, np.nan))
+        return np.array([-1.0, 1, -1, 1]) * self.pick((1, 1, 1, 0.1, 0, 1e30, np.nan))
 
     def pixels(self) -> NDArray[Any]:
         shape = (self.pick((1, 2, 7, 0)), self.pick((1, 3, 8)), self.pick((1, 3, 4, 2)))
@@ -111,10 +112,16 @@ class Values:
 
     def textures(self, names: tuple[str, ...]) -> Float32:
         table = self.floats((self.random.randrange(3), len(names)))
-        for name in ("image", "wrap", "program"):
-            if name in names:
-                table[:, names.index(name)] = self.numbers.integers(-1, 2, len(table))
+        self.set_whole(table, names, WHOLE_TEXTURE)
+        for name in ("image", "program"):
+            table[:, names.index(name)] = self.numbers.integers(-1, 1, len(table))
         return table
+
+    def set_whole(self, table: Float32, names: tuple[str, ...], columns: dict[str, int]) -> None:
+        """Fills columns that hold whole numbers, now and then with one too large."""
+        beyond = int(self.flip(0.05))
+        for name, choices in columns.items():
+            table[:, names.index(name)] = self.numbers.integers(0, choices + beyond, len(table))
 
     def programs(self) -> tuple[NDArray[Any], ...]:
         """Instructions, constants and programs, mostly of small numbers."""
@@ -127,12 +134,30 @@ class Values:
         return ops, self.floats((self.pick((0, 4, 30)),)), rows + self.pick((0, 0, 1))
 
     def materials(self, names: tuple[str, ...]) -> Float32:
-        table = np.abs(self.floats((self.random.randrange(4), len(names))))
+        table = np.abs(self.floats((self.random.randrange(1, 4), len(names))))
         table[:, 3:] = np.minimum(table[:, 3:], 1)
-        table[:, names.index("ior")] = self.pick((0.5, 1, 1.5, 1e6))
-        high = 1 if self.flip() else 0
-        table[:, -INDEX_COLUMNS:] = self.numbers.integers(-1, high, (len(table), INDEX_COLUMNS))
+        for name in ("ior", "coat_ior"):
+            table[:, names.index(name)] = self.pick((0.5, 1, 1.5, 1e6))
+        if self.flip():
+            table[:, names.index("alpha")] = 1
+        self.set_whole(table, names, WHOLE_MATERIAL)
+        high = 1 if self.flip(0.2) else 0
+        textured = [k for k, name in enumerate(names) if name.endswith("_texture")]
+        table[:, textured] = self.numbers.integers(-1, high, (len(table), len(textured)))
         return table
+
+    def lens(self) -> tuple[float, ...]:
+        """The rest of a camera: aperture, focus, blades, turn, squeeze; mostly none."""
+        if self.flip():
+            return ()
+        aperture, focus = self.pick((0.0, 0.1, 1e30, -1.0)), self.pick((1.0, 1e-30, 0.0, np.inf))
+        return aperture, focus, self.pick((0, 3, 7, -1)), 0.3, self.pick((1.0, 2.0, 0.0))
+
+    def stops(self) -> tuple[object, ...]:
+        """When a render ends besides its samples: seconds, error, and whether it adapts; mostly never."""
+        if self.flip():
+            return ()
+        return self.pick((0, 0, 0.01, -1, np.nan)), self.pick((0, 0.1, 1e30, np.inf)), self.flip()
 
     def lights(self, names: tuple[str, ...]) -> Float32:
         table = self.floats((self.random.randrange(4), len(names)))

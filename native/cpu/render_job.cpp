@@ -278,7 +278,9 @@ RenderProgress RenderJob::progress() const {
     state.done = running_ == 0;
     state.stopped_by = state.done ? stopped_by_.load() : StopReason::none;
     state.samples = done / pixels;
-    state.target = request_.samples;
+    state.target = request_.is_allotted()
+                       ? int64_t{kReplicates} * std::max(most_per_replicate(request_.samples), 1u)
+                       : request_.samples;
     state.seconds = std::chrono::duration<double>(until - start_).count();
     state.rays = {camera_rays_.load(std::memory_order_relaxed),
                   shadow_rays_.load(std::memory_order_relaxed),

@@ -51,9 +51,11 @@ TRG_FN Energy look_up_energy(const float* table, int32_t rows, float roughness, 
 TRG_FN Vec3 energy_factor(Energy e, Vec3 mean) {
     if (!(e.at > 0.0f)) return {1.0f, 1.0f, 1.0f};
     const float lost = (1.0f - e.at) / e.at, missed = 1.0f - e.mean;
-    return {1.0f + lost * mean.x * e.mean / (1.0f - mean.x * missed),
-            1.0f + lost * mean.y * e.mean / (1.0f - mean.y * missed),
-            1.0f + lost * mean.z * e.mean / (1.0f - mean.z * missed)};
+    // Colours beyond 1 would let the series of bounces grow without end.
+    const Vec3 f{smaller(mean.x, 1.0f), smaller(mean.y, 1.0f), smaller(mean.z, 1.0f)};
+    return {1.0f + lost * f.x * e.mean / (1.0f - f.x * missed),
+            1.0f + lost * f.y * e.mean / (1.0f - f.y * missed),
+            1.0f + lost * f.z * e.mean / (1.0f - f.z * missed)};
 }
 
 }  // namespace trg

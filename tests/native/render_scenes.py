@@ -75,8 +75,9 @@ def make_floor(half: float = 1.0, z: float = 0.0) -> tuple[Float32, NDArray[np.i
     return np.array(corners, np.float32), np.array([(0, 1, 2), (0, 2, 3)], np.int32)
 
 
-def new_scene(materials: list[Material], world: float = 0.0, lights: list[Light] | None = None) -> Any:
-    scene = trg_native.Scene()
+def new_scene(materials: list[Material], world: float = 0.0, lights: list[Light] | None = None,
+              accel: str = "auto") -> Any:
+    scene = trg_native.Scene(accel)
     scene.set_materials(pack_table(materials, MATERIAL_FIELDS))
     scene.set_lights(pack_table(lights or [], LIGHT_FIELDS))
     scene.set_world(world, world, world)

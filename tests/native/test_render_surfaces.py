@@ -29,6 +29,7 @@ from .render_scenes import (
     new_scene,
     picture,
     place,
+    trg_native,
 )
 
 WITHIN = Camera(half_width=0.9)
@@ -197,3 +198,16 @@ def test_a_convex_surface_never_hides_itself(scale: float, shift: float) -> None
     pixels = picture(scene, Settings(samples=16, bounces=0), camera)
     assert pixels[..., :3].min() > 0.99
     assert pixels[..., :3].mean() == pytest.approx(1.0, abs=1e-5)
+
+
+@pytest.mark.parametrize("kind", [{"transmission": 1.0}, {"metallic": 1.0}])
+def test_colours_beyond_one_keep_chances_of_directions_positive(kind: dict[str, float]) -> None:
+    rng = np.random.default_rng(1)
+    wo, wi = rng.normal(size=(2, 1000, 3))
+    wo[:, 2], wi[:, 2] = np.abs(wo[:, 2]), np.abs(wi[:, 2])
+    wo, wi = (np.float32(w / np.linalg.norm(w, axis=1, keepdims=True)) for w in (wo, wi))
+    value, pdf = np.empty((1000, 3), np.float32), np.empty(1000, np.float32)
+    for base in (1.5, 1.9, 4.0, 1e4):
+        material = Material(base, base, base, roughness=1.0, multiscatter=1.0, **kind)
+        trg_native.bsdf_eval(pack_table([material], MATERIAL_FIELDS)[0], wo, wi, True, value, pdf)
+        assert (pdf > 0).all() and (value >= 0).all() and np.isfinite(value).all()

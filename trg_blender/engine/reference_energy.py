@@ -103,7 +103,8 @@ def facet_albedo(kind: str, eta: float, wo: Float64, m: Float64, alpha: Float64)
 
 
 def energy_factor(at: Float64, mean: Float64, reflectance: Float64) -> Float64:
-    """(n, 3) scale of facets whose mean reflectance is `reflectance` (n, 3)."""
+    """(n, 3) scale of facets whose mean reflectance is `reflectance` (n, 3), held to 1."""
     lost = ((1.0 - at) / at)[:, None]
-    again = reflectance * mean[:, None] / (1.0 - reflectance * (1.0 - mean[:, None]))
+    held = np.minimum(reflectance, 1.0)
+    again = held * mean[:, None] / (1.0 - held * (1.0 - mean[:, None]))
     return 1.0 + lost * again
