@@ -1,8 +1,8 @@
 """The rows of the catalogue of stiff cases about leaving a surface and meeting the next one: S03 to S12.
 
 Each row renders with a camera that is looking at the case, so that rays leave surfaces as they do in any
-picture, and compares every pixel (or, where samples are drawn by chance, the mean) with the closed form. A row
-takes an accelerator and a number of camera rays.
+picture, and compares every pixel (or, where samples are drawn by chance, the mean) with the closed form.
+A row takes an accelerator and a number of camera rays.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from tests.native.meshes import Mesh, icosphere, mesh_of, scene_of
 from tests.native.render_scenes import (
-    BLACK,
     GLOW,
     GREY,
     POINT,
@@ -64,7 +63,7 @@ def far_from(expected: float, pixels: Float32, tolerance: float) -> Outcome:
 
 
 def mean_is(expected: float, pixels: Float32, tolerance: float) -> Outcome:
-    """For noisy pixels: all fail when their mean is off by the relative tolerance and four standard errors."""
+    """For noisy pixels: all fail when their mean is off by the relative tolerance and four deviations."""
     values = pixels[..., 0].astype(np.float64)
     noise = 4 * values.std() / np.sqrt(values.size)
     off = abs(values.mean() - expected) > tolerance * expected + noise
@@ -159,8 +158,8 @@ def through_slabs(interfaces: list[float]) -> float:
 
 
 def nested_glass(overlap: float, met: list[float], glass_first: bool = True) -> Row:
-    """S07, S08: glass 1.5 over water 1.33, lit from within the water. Media have no priorities: every interface
-    is one to air, and `met` are the indices of those that a ray meets one after another."""
+    """S07, S08: glass 1.5 over water 1.33, lit from within the water. Media have no priorities: every
+    interface is one to air, and `met` are the indices of those that a ray meets one after another."""
 
     def row(accel: str, count: int) -> Outcome:
         scene = new_scene([glass(1.5), glass(1.33), GLOW], accel=accel)
@@ -235,7 +234,9 @@ def sheets_lit_through(light: Light) -> Row:
     """S12: a floor lit through 1000 sheets that are there to a hundredth; the camera is below them."""
 
     def row(accel: str, count: int) -> Outcome:
-        scene = new_scene([Material(0.0, 0.0, 0.0, specular=0.0, alpha=0.01), WHITE], lights=[light], accel=accel)
+        scene = new_scene(
+            [Material(0.0, 0.0, 0.0, specular=0.0, alpha=0.01), WHITE], lights=[light], accel=accel
+        )
         add_mesh(scene, sheets(1000))
         add_object(scene, make_floor(5.0), 1)
         camera = Camera(eye=(0.0, 0.0, 5e-4), half_width=1e-2)
@@ -259,7 +260,9 @@ def sheets_met(accel: str, count: int) -> Outcome:
         hits = scene.intersect(origins, directions, tmin=start)
         failed += int((hits.triangle // 2 != sheet).sum())
         start = hits.t * np.float32(1.0000002)
-    return Outcome(failed + int((scene.intersect(origins, directions, tmin=start).triangle >= 0).sum()), 1000 * rays)
+    return Outcome(
+        failed + int((scene.intersect(origins, directions, tmin=start).triangle >= 0).sum()), 1000 * rays
+    )
 
 
 def rows() -> Iterator[tuple[str, Row]]:
@@ -269,8 +272,14 @@ def rows() -> Iterator[tuple[str, Row]]:
             yield f"S03 far-camera, {distance:g} radii of {scale:g}", far_camera(distance, scale)
     for cosine in (1e-3, 1e-2):
         for shift in (0.0, 1e2, 1e4, 1e5):
-            yield f"S04 grazing-exit, cosine {cosine:g}, placed at {shift:g}", grazing_exit(cosine, shift, False)
-            yield f"S04 grazing-exit, cosine {cosine:g}, vertices at {shift:g}", grazing_exit(cosine, shift, True)
+            yield (
+                f"S04 grazing-exit, cosine {cosine:g}, placed at {shift:g}",
+                grazing_exit(cosine, shift, False),
+            )
+            yield (
+                f"S04 grazing-exit, cosine {cosine:g}, vertices at {shift:g}",
+                grazing_exit(cosine, shift, True),
+            )
     for gap in (1e-2, 1e-4, 1e-5, 1e-6):
         yield f"S05 thin-gap, {gap:g}, refracting shell", thin_gap(gap, glass(1.0))
         yield f"S05 thin-gap, {gap:g}, shell that is not there", thin_gap(gap, Material(alpha=0.0))

@@ -10,6 +10,7 @@ import time
 import numpy as np
 import pytest
 
+from benchmarks import leaving_rows
 from benchmarks.robustness_rows import random_inner_rays, rows
 from trg_blender.engine.native import Hits, RayScene
 
@@ -26,6 +27,7 @@ from .meshes import (
 )
 
 ROWS = dict(rows())
+LEAVING_ROWS = dict(leaving_rows.rows())
 
 
 @pytest.mark.parametrize("name", ROWS)
@@ -34,6 +36,14 @@ def test_no_ray_of_the_row_fails(name: str, accel: str):
     count = 300 if name.startswith(("G07", "G11", "G12")) else 4000
     outcome = ROWS[name](accel, count)
     assert outcome.total == count and outcome.failed == 0
+
+
+@pytest.mark.parametrize("name", LEAVING_ROWS)
+def test_leaving_a_surface_loses_nothing(name: str):
+    accels = ["bvh"] if name.startswith(("S07", "S08", "S11", "S12")) else INDICES
+    for accel in accels:
+        outcome = LEAVING_ROWS[name](accel, 1600)
+        assert outcome.total > 0 and outcome.failed == 0, accel
 
 
 def hits_with(instruction_set: str, accel: str) -> Hits:
