@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from trg_blender.engine.image_error import estimate_error, measure_error, relmse, rmse
+from trg_blender.engine.pixel_error import pooled
 
 SIGMA = 0.5
 
@@ -79,3 +80,12 @@ def test_noise_in_one_replicate_alone_gives_a_wide_interval():
     assert low < 0.05 * error.rmse
     assert high > 20.0 * error.rmse
     assert math.isfinite(high)
+
+
+@pytest.mark.parametrize("shape", [(1, 1), (2, 2), (1, 7), (3, 40)])
+def test_pixels_are_pooled_within_any_film(shape: tuple[int, int]):
+    values = np.arange(float(shape[0] * shape[1])).reshape(shape)
+    found = pooled(values, 4)
+    for y, x in np.ndindex(*shape):
+        around = values[max(y - 4, 0) : y + 5, max(x - 4, 0) : x + 5]
+        assert found[y, x] == pytest.approx(around.mean())

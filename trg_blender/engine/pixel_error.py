@@ -61,8 +61,9 @@ def pooled(values: Float64, reach: int) -> Float64:
     """Mean over the neighbourhood of each pixel, cut at the borders."""
     height, width = values.shape
     total, count = np.zeros((height, width)), np.zeros((height, width))
-    for dy in range(-reach, reach + 1):
-        for dx in range(-reach, reach + 1):
+    up, across = min(reach, height - 1), min(reach, width - 1)
+    for dy in range(-up, up + 1):
+        for dx in range(-across, across + 1):
             here = np.s_[max(-dy, 0) : height - max(dy, 0), max(-dx, 0) : width - max(dx, 0)]
             there = np.s_[max(dy, 0) : height - max(-dy, 0), max(dx, 0) : width - max(-dx, 0)]
             total[here] += values[there]
