@@ -35,6 +35,7 @@ REPAIRS = {
     "a mistyped built-in behind #": ("a = #shpere(vec3(0), 1);", "a = #sphere(vec3(0), 1);"),
     "a mistyped variable": ("radius = 1;\na = raduis;", "radius = 1;\na = radius;"),
     "a mistyped type": ('f = function(a ~ "scen") { };', 'f = function(a ~ "scene") { };'),
+    "a mistyped type of an export": ('export a = vec3(1) ~ "color";', 'export a = vec3(1) ~ "colour";'),
     "single quotes": ("a = 'шар';", 'a = "шар";'),
     "one &": ("a = 1 & 2;", "a = 1 && 2;"),
     "one |": ("a = 1 | 2;", "a = 1 || 2;"),
@@ -82,3 +83,46 @@ def test_both_languages_tell_the_same_places_and_codes(name: str):
     english, russian = (diagnostics_of(REPAIRS[name][0], language) for language in LANGUAGES)
     assert [(d.code, d.span, d.fix) for d in english] == [(d.code, d.span, d.fix) for d in russian]
     assert all(e.message != r.message for e, r in zip(english, russian, strict=True))
+
+
+RUN_REPAIRS = {
+    "a mistyped field": (
+        "o.radius = 1; x = o.raduis;",
+        "o.radius = 1; x = o.radius;",
+    ),
+    "a mistyped field that is called": (
+        "o.draw = function() { }; o.drwa();",
+        "o.draw = function() { }; o.draw();",
+    ),
+    "a field on a line of its own": (
+        "o.radius = 1; x = o\n  .raduis;",
+        "o.radius = 1; x = o\n  .radius;",
+    ),
+    "a mistyped method": ("S = scene(); S.Rendr();", "S = scene(); S.Render();"),
+    "a field of a vector": ("x = vec3(1).X;", "x = vec3(1).x;"),
+}
+
+
+@pytest.mark.parametrize("name", RUN_REPAIRS)
+def test_a_fix_repairs_what_fails_at_run_time(name: str, run):
+    faulty, right = RUN_REPAIRS[name]
+    (found,) = run(faulty).diagnostics
+    span, replacement = found.fix
+    lines = faulty.split("\n")
+    line = lines[span.line - 1]
+    lines[span.line - 1] = line[: span.col - 1] + replacement + line[span.end_col - 1 :]
+    assert "\n".join(lines) == right
+    assert run(right).diagnostics == []
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "o.radius1 = 1; o.radius2 = 2; x = o.radius3;",
+        "o.radius = 1; x = (o.raduis);",
+        "o.radius = 1; x = o.entirely;",
+        "o.operator+ = function(a, b) { }; x = o.operator-;",
+    ],
+)
+def test_what_fails_at_run_time_and_is_not_certain_gets_no_fix(text: str, run):
+    assert [(d.code, d.fix) for d in run(text).diagnostics] == [("E421", None)]

@@ -14,6 +14,8 @@ MAX_ARGUMENTS = 255
 MAX_ELEMENTS = 1000
 """Elements of one list literal; longer lists are appended to."""
 
+_WORDS = ("op", "keyword")
+
 
 class SyntaxStop(Exception):
     """A syntax error was reported; the parser goes on at the next statement."""
@@ -26,38 +28,50 @@ class Cursor:
         self.tokens = tokens
         self.bag = bag
         self.at = 0
+        self.token = tokens[0]
+        """The next token, `tokens[at]`."""
         self.statement_start = 0
         self.levels = 0
-
-    @property
-    def token(self) -> Token:
-        return self.tokens[self.at]
 
     @property
     def previous(self) -> Span:
         return self.tokens[max(0, self.at - 1)].span
 
     def next(self) -> Token:
-        token = self.tokens[self.at]
+        token = self.token
         if token.kind != "end":
             self.at += 1
+            self.token = self.tokens[self.at]
         return token
+
+    def go_to_end(self) -> None:
+        self.at = len(self.tokens) - 1
+        self.token = self.tokens[self.at]
+
+    def put(self, token: Token) -> None:
+        """Put another token in the place of the next."""
+        self.tokens[self.at] = self.token = token
 
     def sees(self, text: str) -> bool:
         """Whether the next token is this operator or keyword."""
-        token = self.tokens[self.at]
-        return token.text == text and token.kind in ("op", "keyword")
+        token = self.token
+        return token.text == text and token.kind in _WORDS
 
     def accept(self, text: str) -> bool:
-        if self.sees(text):
+        token = self.token
+        if token.text == text and token.kind in _WORDS:
             self.at += 1
+            self.token = self.tokens[self.at]
             return True
         return False
 
     def expect(self, text: str) -> Token:
         """The next token, which must be `text`; the error stands just behind the token before it."""
-        if self.sees(text):
-            return self.next()
+        token = self.token
+        if token.text == text and token.kind in _WORDS:
+            self.at += 1
+            self.token = self.tokens[self.at]
+            return token
         if text == ";" and self.sees(")"):
             raise self.error("E202", self.token.span, self._closes_too_early(), text=")")
         before = self.previous
@@ -91,9 +105,9 @@ class Cursor:
     def leave(self) -> None:
         self.levels -= 1
 
-    def depth_above(self, *depths: int) -> int:
-        """The depth of a node over children of these depths; raises SyntaxStop above the limit."""
-        depth = 1 + max(depths)
+    def depth_above(self, deepest: int) -> int:
+        """The depth of a node over children at most so deep; raises SyntaxStop above the limit."""
+        depth = 1 + deepest
         if depth > MAX_DEPTH:
             raise self.error("E220", self.token.span, "split_nesting", limit=MAX_DEPTH)
         return depth

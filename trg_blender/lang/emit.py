@@ -12,19 +12,29 @@ import ast as py
 from . import ast
 from .emit_expr import ExpressionEmitter, ProgramParts, step_amount
 from .pytree import (
-    OPERATORS,
+    COMPARISONS,
+    IS,
+    IS_NOT,
+    LOAD,
+    NOT,
+    STORE,
     assign,
     at,
     attribute,
+    augment,
     call,
     compare,
     constant,
     count_steps,
+    element,
     forever,
+    leave,
     load,
     statement,
     store,
     tick,
+    unary,
+    walk,
     when,
 )
 from .resolve import FunctionInfo
@@ -69,7 +79,10 @@ class StatementEmitter:
         self.expressions.weight += 1
         match node:
             case ast.ExprStatement():
-                return self._expression(node.value)
+                with_own = self.expressions.temporaries
+                made = self._expression(node.value)
+                self.expressions.temporaries = with_own  # what it held in them is no longer needed
+                return made
             case ast.Block():
                 return self.block(node.statements) if node.statements else []
             case ast.If():
@@ -85,7 +98,7 @@ class StatementEmitter:
             case ast.Switch():
                 return self._switch(node)
             case ast.Break():
-                return [at(py.Break(), span)]
+                return [leave(span)]
             case ast.Continue():
                 return self._continue(span)
             case ast.Return():
@@ -126,16 +139,16 @@ class StatementEmitter:
         return self._assign_field(target, value, span)
 
     def _augment(self, target: ast.Target, op: str, value: py.expr, span: Span) -> py.stmt:
-        return at(py.AugAssign(self._target(target), OPERATORS[op](), value), span)
+        return augment(self._target(target), op, value, span)
 
     def _target(self, target: ast.Target) -> py.Name | py.Attribute | py.Subscript:
         emit = self.expressions
         if isinstance(target, ast.Path):
             return store(emit.variable(target), target.span)
         if isinstance(target, ast.Index):
-            return emit.element(target, py.Store())
+            return emit.element(target, STORE)
         emit.site(target, ".=", (target.object,), by_field=True)
-        return attribute(emit.value(target.object), target.name, target.span, py.Store())
+        return attribute(emit.value(target.object), target.name, target.span, STORE)
 
     def _assign_field(self, target: ast.Field, value: py.expr, span: Span) -> list[py.stmt]:
         """A variable without a value becomes an object, after the value has been computed."""
@@ -143,7 +156,7 @@ class StatementEmitter:
         if not isinstance(holder, ast.Path) or emit.is_builtin(holder):
             return [assign(self._target(target), value, span)]
         held = emit.temporary()
-        undefined = compare(emit.value(holder), py.Is(), load("u_", span), span)
+        undefined = compare(emit.value(holder), IS, load("u_", span), span)
         name = emit.variable(holder)
         fresh = assign(store(name, span), call("O_", [], span), span)
         return [
@@ -164,15 +177,15 @@ class StatementEmitter:
         branches = [(self.expressions.condition(test), self.block((body,))) for test, body in node.branches]
         orelse = [] if node.otherwise is None else self.block((node.otherwise,))
         for test, body in reversed(branches):
-            orelse = [at(py.If(test, body, orelse), node.span)]
+            orelse = [when(test, body, node.span, orelse)]
         return orelse
 
     def _guarded(self, condition: ast.Expr | None, body: ast.Statement, span: Span) -> list[py.stmt]:
         """Leave the loop unless the condition holds, then the body."""
         made: list[py.stmt] = []
         if condition is not None:
-            test = at(py.UnaryOp(py.Not(), self.expressions.condition(condition)), condition.span)
-            made.append(when(test, [at(py.Break(), span)], span))
+            test = unary(NOT, self.expressions.condition(condition), condition.span)
+            made.append(when(test, [leave(span)], span))
         self._around.append(None)
         made += self.block((body,))
         self._around.pop()
@@ -182,7 +195,7 @@ class StatementEmitter:
         suspend: py.expr = at(py.Yield(load("P_", span)), span)
         refill = suspend if self.expressions.suspends else call("T_", [], span)
         inner = count_steps(body, [statement(refill, span), at(py.Continue(), span)], span)
-        return [forever([inner, at(py.Break(), span)], span)]
+        return [forever([inner, leave(span)], span)]
 
     def _for(self, node: ast.For) -> list[py.stmt]:
         """With a `continue` inside, the step stands first and a flag skips it on the first turn."""
@@ -196,7 +209,7 @@ class StatementEmitter:
             return made + self._loop(body + step, span)
         flag = self.expressions.temporary("n")
         raised = assign(store(flag, span), constant(1, span), span)
-        first = at(py.If(load(flag, span), step, [raised]), span)
+        first = when(load(flag, span), step, span, [raised])
         made.append(assign(store(flag, span), constant(0, span), span))
         return made + self._loop([first, *body], span)
 
@@ -211,16 +224,16 @@ class StatementEmitter:
         self._around.pop()
         if not emit.suspends:
             paced = call("C_", [items, load("K_", span)], span)
-            return [at(py.For(store(name, span), paced, body, []), span)]
-        walk, found = emit.temporary(), emit.temporary()
-        ended = compare(load(found, span), py.Is(), load("A_", span), span)
-        taken = call("Q_", [load(walk, span), load("A_", span)], span)
+            return [walk(store(name, span), paced, body, [], span)]
+        place, found = emit.temporary(), emit.temporary()
+        ended = compare(load(found, span), IS, load("A_", span), span)
+        taken = call("Q_", [load(place, span), load("A_", span)], span)
         first = [
             assign(store(found, span), taken, span),
-            when(ended, [at(py.Break(), span)], span),
+            when(ended, [leave(span)], span),
             assign(store(name, span), load(found, span), span),
         ]
-        return [assign(store(walk, span), items, span), *self._loop([*first, *body], span)]
+        return [assign(store(place, span), items, span), *self._loop([*first, *body], span)]
 
     def _continue(self, span: Span) -> list[py.stmt]:
         switch = self._around[-1]
@@ -228,7 +241,7 @@ class StatementEmitter:
             return [at(py.Continue(), span)]
         switch.continues = True
         mark = assign(store(switch.name, span), constant(_CONTINUE, span), span)
-        return [mark, at(py.Break(), span)]
+        return [mark, leave(span)]
 
     def _switch(self, node: ast.Switch) -> list[py.stmt]:
         """Choose the case in one loop that runs once, then fall through from it in another."""
@@ -241,12 +254,12 @@ class StatementEmitter:
         bodies: list[py.stmt] = []
         for index, case in enumerate(node.cases):
             if case.body:
-                test = compare(load(chosen, span), py.LtE(), constant(index, span), case.span)
+                test = compare(load(chosen, span), COMPARISONS["<="], constant(index, span), case.span)
                 bodies.append(when(test, self.block(case.body), case.span))
         self._around.pop()
-        made.append(forever([*bodies, at(py.Break(), span)], span))
+        made.append(forever([*bodies, leave(span)], span))
         if switch.continues:
-            test = compare(load(chosen, span), py.Eq(), constant(_CONTINUE, span), span)
+            test = compare(load(chosen, span), COMPARISONS["=="], constant(_CONTINUE, span), span)
             made.append(when(test, self._continue(span), span))
         return made
 
@@ -260,9 +273,9 @@ class StatementEmitter:
             value = emit.value(case.value)
             test = emit.equal(load(subject, case.value.span), value, case.value.span)
             take = assign(store(chosen, case.span), constant(index, case.span), case.span)
-            made.append(when(test, [take, at(py.Break(), case.span)], case.span))
+            made.append(when(test, [take, leave(case.span)], case.span))
         made.append(assign(store(chosen, node.span), constant(default, node.span), node.span))
-        made.append(at(py.Break(), node.span))
+        made.append(leave(node.span))
         return made
 
 
@@ -276,7 +289,7 @@ def _continues(body: ast.Statement) -> bool:
         node = todo.pop()
         if isinstance(node, ast.Continue):
             return True
-        if not isinstance(node, ast.While | ast.For | ast.ForEach):
+        if not isinstance(node, (ast.While, ast.For, ast.ForEach)):
             todo.extend(ast.parts_of(node)[1])
     return False
 
@@ -364,7 +377,7 @@ class FunctionEmitter:
     @staticmethod
     def _descend(span: Span) -> py.stmt:
         """One call deeper: see runtime.CALL_LEVELS."""
-        inner = at(py.Subscript(load("d_", span), constant(0, span), py.Load()), span)
+        inner = element(load("d_", span), constant(0, span), span, LOAD)
         return assign(store("d_", span), inner, span)
 
     def _parameter(self, parameter: ast.Parameter, may_lack: bool) -> list[py.stmt]:
@@ -373,7 +386,7 @@ class FunctionEmitter:
         emit = self.statements.expressions
         made: list[py.stmt] = []
         if may_lack:
-            lacks = compare(load(name, span), py.Is(), load("A_", span), span)
+            lacks = compare(load(name, span), IS, load("A_", span), span)
             if parameter.default is None:
                 missing = call("R_", [constant(parameter.name, span)], span)
                 fill: py.stmt = statement(missing, span)
@@ -389,7 +402,7 @@ class FunctionEmitter:
             check: py.stmt = statement(call("W_", arguments, span), span)
             if kind in _EXACT_TYPES:
                 found = call("Y_", [load(name, span)], span)
-                check = when(compare(found, py.IsNot(), load("t_" + kind, span), span), [check], span)
+                check = when(compare(found, IS_NOT, load("t_" + kind, span), span), [check], span)
             made.append(check)
         return made
 

@@ -13,21 +13,30 @@ from collections.abc import Callable
 from . import ast
 from .pytree import (
     COMPARISONS,
+    IS,
+    LOAD,
+    NOT,
     at,
     attribute,
     binary,
+    both,
     call,
+    choose,
     compare,
     constant,
     element,
+    invoke,
     load,
     named,
     one_or_zero,
+    unary,
 )
 from .resolve import FunctionInfo, Resolution
 from .runtime import Site
 from .source import Span
 from .yields import YieldAnalysis
+
+_NAMED = (ast.Path, ast.Field)
 
 
 class ProgramParts:
@@ -41,7 +50,7 @@ class ProgramParts:
         self.sites: dict[Span, Site] = {}
         self.strings: dict[str, str] = {}
         self.has_self = any(info.takes_self for info in resolution.functions.values())
-        self.compare_overloaded = bool(resolution.overloads & set(COMPARISONS))
+        self.compare_overloaded = bool(resolution.overloads & COMPARISONS.keys())
 
     def place_name(self, builtin: str, span: Span) -> str:
         """The global name of a built-in that is called directly: one of its own where it makes things."""
@@ -64,11 +73,12 @@ class ExpressionEmitter:
         self.weight = 0
         self.not_yet: frozenset[str] = frozenset()
         """Parameters that have no value while the default of an earlier one is computed."""
-        self._temporaries = 0
+        self.temporaries = 0
+        """How many are in use."""
 
     def temporary(self, letter: str = "t") -> str:
-        self._temporaries += 1
-        return f"{letter}{self._temporaries}_"
+        self.temporaries += 1
+        return f"{letter}{self.temporaries}_"
 
     def site(
         self, node: ast.Expr, op: str, operands: tuple[ast.Expr, ...], *, by_field: bool = False
@@ -77,8 +87,8 @@ class ExpressionEmitter:
         span = node.span
         if by_field and span.line != span.end_line:
             span = Span(span.file, span.line, span.col, span.line, span.col + 1)
-        names = tuple(o.name if isinstance(o, ast.Path | ast.Field) else "" for o in operands)
-        spans = tuple(o.span for o in operands)
+        names = tuple([o.name if isinstance(o, _NAMED) else "" for o in operands])
+        spans = tuple([o.span for o in operands])
         self.parts.sites[span] = Site(node.span, op, spans, names)
 
     def variable(self, path: ast.Path) -> str:
@@ -94,13 +104,13 @@ class ExpressionEmitter:
         """The expression as a value of the language."""
         self.weight += 1
         match node:
+            case ast.Path():
+                absent = node.name in self.not_yet and not node.is_global
+                return load("u_" if absent else self.variable(node), node.span)
             case ast.Number():
                 return constant(node.value, node.span)
             case ast.String():
                 return load(self.parts.string_name(node.text), node.span)
-            case ast.Path():
-                absent = node.name in self.not_yet and not node.is_global
-                return load("u_" if absent else self.variable(node), node.span)
             case ast.Binary():
                 return self._spine(node, condition=False)
             case ast.Logic():
@@ -115,11 +125,11 @@ class ExpressionEmitter:
                 return self._call(node)
             case ast.Field():
                 self.site(node, ".", (node.object,), by_field=True)
-                return attribute(self.value(node.object), node.name, node.span, py.Load())
+                return attribute(self.value(node.object), node.name, node.span, LOAD)
             case ast.Index():
-                return self.element(node, py.Load())
+                return self.element(node, LOAD)
             case ast.ListOf():
-                elements = at(py.Tuple([self.value(e) for e in node.elements], py.Load()), node.span)
+                elements = both([self.value(e) for e in node.elements], node.span)
                 return call("H_", [elements], node.span)
             case ast.Each():
                 raise AssertionError("the head of a loop is no value")
@@ -141,7 +151,7 @@ class ExpressionEmitter:
             return self._logic(node)
         if isinstance(node, ast.Unary) and node.op == "!":
             if "!" not in self.parts.resolution.overloads:
-                return at(py.UnaryOp(py.Not(), self.condition(node.operand)), node.span)
+                return unary(NOT, self.condition(node.operand), node.span)
         return self.value(node)
 
     def equal(self, left: py.expr, right: py.expr, span: Span) -> py.expr:
@@ -171,7 +181,7 @@ class ExpressionEmitter:
     def _compare(self, op: str, left: py.expr, right: py.expr, span: Span) -> py.expr:
         if self.parts.compare_overloaded:
             return call("L_", [constant(op, span), left, right], span)
-        return compare(left, COMPARISONS[op](), right, span)
+        return compare(left, COMPARISONS[op], right, span)
 
     def _logic(self, node: ast.Logic) -> py.expr:
         operands: list[ast.Expr] = []
@@ -189,9 +199,9 @@ class ExpressionEmitter:
             if "!" in self.parts.resolution.overloads:
                 return call("N_", [self.value(node.operand)], node.span)
             zero, one = constant(0.0, node.span), constant(1.0, node.span)
-            return at(py.IfExp(self.condition(node.operand), zero, one), node.span)
+            return choose(self.condition(node.operand), zero, one, node.span)
         op = py.USub() if node.op == "-" else py.UAdd()
-        return at(py.UnaryOp(op, self.value(node.operand)), node.span)
+        return unary(op, self.value(node.operand), node.span)
 
     # Assignments whose value is used.
 
@@ -228,7 +238,7 @@ class ExpressionEmitter:
         """An element, its list and index kept in variables for writing it back."""
         span = target.span
         holder = named(held, self.value(target.object), span)
-        return element(holder, named(place, self.value(target.index), span), span, py.Load())
+        return element(holder, named(place, self.value(target.index), span), span, LOAD)
 
     def _step_element(self, node: ast.Step, target: ast.Index, by: py.expr) -> py.expr:
         span, target_span = node.span, target.span
@@ -246,17 +256,16 @@ class ExpressionEmitter:
     @staticmethod
     def _first_of(first: py.expr, second: py.expr, span: Span) -> py.expr:
         """Both are computed; the value is the first."""
-        pair = at(py.Tuple([first, second], py.Load()), span)
-        return at(py.Subscript(pair, constant(0, span), py.Load()), span)
+        return element(both([first, second], span), constant(0, span), span, LOAD)
 
     def holder(self, node: ast.Expr) -> py.expr:
         """The object of a field that is assigned to; a variable without a value becomes one."""
         made = self.value(node)
         if not isinstance(node, ast.Path) or self.is_builtin(node):
             return made
-        undefined = compare(made, py.Is(), load("u_", node.span), node.span)
+        undefined = compare(made, IS, load("u_", node.span), node.span)
         fresh = named(self.variable(node), call("O_", [], node.span), node.span)
-        return at(py.IfExp(undefined, fresh, self.value(node)), node.span)
+        return choose(undefined, fresh, self.value(node), node.span)
 
     def is_builtin(self, path: ast.Path) -> bool:
         """Whether `path` means a built-in here."""
@@ -265,7 +274,7 @@ class ExpressionEmitter:
     def _change_field(self, target: ast.Field, op: str, value: Callable[[], py.expr], span: Span) -> py.expr:
         held = self.temporary()
         holder = named(held, self.value(target.object), target.span)
-        old = attribute(load(held, target.span), target.name, target.span, py.Load())
+        old = attribute(load(held, target.span), target.name, target.span, LOAD)
         new = binary(old, op, value(), span)
         return call("E_", [holder, constant("T_" + target.name, span), new], target.span)
 
@@ -289,7 +298,7 @@ class ExpressionEmitter:
             return self._change_field(target, "-", lambda: by, span)
         held, old = self.temporary(), self.temporary()
         holder = named(held, self.value(target.object), target.span)
-        read = attribute(load(held, target.span), target.name, target.span, py.Load())
+        read = attribute(load(held, target.span), target.name, target.span, LOAD)
         first = named(old, call("Z_", [read], span), span)
         new = binary(load(old, span), "-", by, span)
         return call("B_", [holder, constant("T_" + target.name, span), first, new], target.span)
@@ -304,7 +313,7 @@ class ExpressionEmitter:
             return self._call_builtin(node, callee)
         function = self._method(callee) if isinstance(callee, ast.Field) else self.value(callee)
         arguments = [self.value(a) for a in node.arguments]
-        made: py.expr = at(py.Call(function, [load("d_", span), *arguments], []), span)
+        made: py.expr = invoke(function, [load("d_", span), *arguments], span)
         if self.suspends and self.parts.analysis.may_yield(node, self.context):
             made = self._delegate(made, span)
         return made
@@ -327,15 +336,15 @@ class ExpressionEmitter:
         self.site(callee, ".", (callee.object,), by_field=True)
         held, span = self.temporary(), callee.span
         holder = named(held, self.value(callee.object), span)
-        function = attribute(load(held, span), callee.name, span, py.Load())
+        function = attribute(load(held, span), callee.name, span, LOAD)
         return call("M_", [holder, function], span)
 
     def _delegate(self, made: py.expr, span: Span) -> py.expr:
         """Run a call that turned out to be a suspended computation, else take its value."""
         kind = call("Y_", [named("t_", made, span)], span)
-        test = compare(kind, py.Is(), load("G_", span), span)
+        test = compare(kind, IS, load("G_", span), span)
         run = at(py.YieldFrom(load("t_", span)), span)
-        return at(py.IfExp(test, run, load("t_", span)), span)
+        return choose(test, run, load("t_", span), span)
 
 
 def step_amount(op: str) -> float:

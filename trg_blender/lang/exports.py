@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from . import ast
-from .diagnostics import DiagnosticBag, Notice, closest
+from .diagnostics import DiagnosticBag, Notice, closest, is_certain
 from .source import SourceFile, Span
 
 ParameterValue = float | str | tuple[float, float, float]
@@ -153,8 +153,11 @@ class _Reader:
         if name in TYPES:
             return name
         guess = closest(name, TYPES)
-        hint = ("did_you_mean", {"name": guess}) if guess else (None, None)
-        self.bag.add(Notice("E333", self.node.type_span or self.node.span, {"name": name}, *hint))
+        hint, meant = ("did_you_mean", {"name": guess}) if guess else (None, None)
+        place = self.node.type_span or self.node.span
+        certain = guess is not None and is_certain(name, guess, TYPES)
+        fix = (place, f'"{guess}"') if certain else None
+        self.bag.add(Notice("E333", place, {"name": name}, hint, meant, fix=fix))
         return None
 
     def _limited(self, export: Export, limits: ast.Call) -> Export | None:

@@ -6,7 +6,7 @@ import re
 from types import FunctionType, TracebackType
 
 from .bind import HOST, wrong_count
-from .diagnostics import Diagnostic, Notice, build_diagnostic, closest
+from .diagnostics import Diagnostic, Notice, build_diagnostic, closest, is_certain
 from .limits import MAX_CALL_DEPTH
 from .runtime import Runtime, Site
 from .source import Span
@@ -66,8 +66,19 @@ class FaultReader:
         made = build_diagnostic(notice, "error", self.rt.options.language)
         return Diagnostic(
             made.code, made.severity, made.message, made.span, made.hint, made.related,
-            self._stack(places),
+            self._stack(places), self._renaming(told, span),
         )  # fmt: skip
+
+    def _renaming(self, told: TrgError, span: Span) -> tuple[Span, str] | None:
+        """The fix that puts the name that was meant at the end of `span`, if the text there is the other."""
+        source = self.rt.program.sources.get(span.file)
+        if told.renamed is None or source is None:
+            return None
+        written, meant = told.renamed
+        first = span.end_col - len(written)
+        if first < 1 or source.lines[span.end_line - 1][first - 1 : span.end_col - 1] != written:
+            return None
+        return Span(span.file, span.end_line, first, span.end_line, span.end_col), meant
 
     def _places(self, trace: TracebackType | None) -> list[tuple[str, Site]]:
         """(function, place) of every frame of translated code, outermost first."""
@@ -200,10 +211,14 @@ def field_error(holder: object, name: str, site: Site) -> TrgError:
         return TrgError("E422", name=_name_of(site))
     if kind in ("num", "str"):
         return TrgError("E420", article=_article(kind), kind=kind, name=name)
-    guess = closest(name, _field_names(holder, kind))
+    candidates = _field_names(holder, kind)
+    guess = closest(name, candidates)
     if guess is None:
         return TrgError("E421", kind=kind, name=name)
-    return TrgError("E421", "did_you_mean_field", kind=kind, name=name, guess=guess)
+    told = TrgError("E421", "did_you_mean_field", kind=kind, name=name, guess=guess)
+    if is_certain(name, guess, candidates) and not guess.startswith("operator"):
+        told.renamed = (name, guess)
+    return told
 
 
 def _field_names(holder: object, kind: str) -> list[str]:

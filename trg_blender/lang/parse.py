@@ -65,7 +65,7 @@ class Parser:
             cursor.levels, self.functions = state[0], state[2]
             del self.around[state[1] :]
             if self.bag.full:
-                cursor.at = len(cursor.tokens) - 1
+                cursor.go_to_end()
                 return
             cursor.skip_statement()
             if cursor.at == start and not cursor.sees("}"):

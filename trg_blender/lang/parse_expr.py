@@ -50,7 +50,7 @@ class ExpressionParser:
         value = self.parse()
         if isinstance(value, ast.Function) and op == "=" and not isinstance(target, ast.Index):
             value = replace(value, name=target.name)
-        depth = self.cursor.depth_above(target.depth, value.depth)
+        depth = self.cursor.depth_above(max(target.depth, value.depth))
         return ast.Assign(left.span.to(value.span), op, target, value, depth)
 
     def _target(self, node: ast.Expr) -> ast.Target:
@@ -62,11 +62,9 @@ class ExpressionParser:
         cursor = self.cursor
         left = self._unary()
         chain, deepest = 0, left.depth
-        while cursor.token.kind == "op":
+        # No token of another kind has the text of an operator.
+        while (level := PRECEDENCE.get(cursor.token.text, 0)) >= lowest:
             op = cursor.token.text
-            level = PRECEDENCE.get(op, 0)
-            if level < lowest:
-                break
             chain += 1
             if chain > MAX_CHAIN:
                 raise cursor.error("E221", cursor.token.span, "split_expression", limit=MAX_CHAIN)
@@ -134,7 +132,7 @@ class ExpressionParser:
         cursor.next()
         index = self.parse()
         end = cursor.expect("]")
-        depth = cursor.depth_above(node.depth, index.depth)
+        depth = cursor.depth_above(max(node.depth, index.depth))
         return ast.Index(node.span.to(end.span), node, index, depth)
 
     def _list(self) -> ast.ListOf:
@@ -142,14 +140,14 @@ class ExpressionParser:
         start = cursor.token.span
         elements = self._values("]", "E227", MAX_ELEMENTS)
         end = cursor.next()
-        depth = cursor.depth_above(0, *(e.depth for e in elements))
+        depth = cursor.depth_above(max((e.depth for e in elements), default=0))
         return ast.ListOf(start.to(end.span), tuple(elements), depth)
 
     def _call(self, callee: ast.Expr) -> ast.Call:
         cursor = self.cursor
         arguments = self._values(")", "E223", MAX_ARGUMENTS)
         end = cursor.next()
-        depth = cursor.depth_above(callee.depth, *(a.depth for a in arguments))
+        depth = cursor.depth_above(max([callee.depth, *[a.depth for a in arguments]]))
         return ast.Call(callee.span.to(end.span), callee, tuple(arguments), depth)
 
     def _field(self, node: ast.Expr) -> ast.Field:
@@ -169,7 +167,7 @@ class ExpressionParser:
         if token.kind == "op" and token.text in _SPLIT:
             s = token.span
             middle = s.col + 1
-            cursor.tokens[cursor.at] = Token("op", "=", "", Span(s.file, s.line, middle, s.line, s.end_col))
+            cursor.put(Token("op", "=", "=", Span(s.file, s.line, middle, s.line, s.end_col)))
             return "operator" + _SPLIT[token.text], Span(s.file, s.line, s.col, s.line, middle)
         if token.kind != "op" or token.text not in OVERLOADS:
             raise cursor.error("E207", token.span, "overloads", text=token.text)
@@ -185,7 +183,9 @@ class ExpressionParser:
         if token.kind == "string":
             cursor.next()
             return ast.String(token.span, str(token.value))
-        if token.kind == "name" or cursor.sees("#"):
+        if token.kind == "name":
+            return self.path()
+        if token.kind == "op" and token.text == "#":
             return self.path()
         if cursor.sees("("):
             cursor.next()
@@ -204,6 +204,8 @@ class ExpressionParser:
         """`name`, `#name` or `space::name`."""
         cursor = self.cursor
         start = cursor.token.span
+        if cursor.token.kind == "name" and cursor.tokens[cursor.at + 1].text != "::":
+            return ast.Path(start, cursor.next().text)
         hashed = cursor.accept("#")
         parts = [cursor.expect_name().text]
         while cursor.accept("::"):

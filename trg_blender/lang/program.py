@@ -24,7 +24,7 @@ from .runtime import Site
 from .source import SourceFile, Span
 from .yields import YieldAnalysis
 
-_COLLECT_AFTER = 1_000_000  # a program near its limit takes about so many nodes, and none is garbage
+_COLLECT_AFTER = 10_000_000  # more than a program at its limit takes, and none is garbage
 
 
 @dataclass(frozen=True, slots=True)

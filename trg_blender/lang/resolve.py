@@ -241,7 +241,7 @@ class _LintWalk:
             if isinstance(node, ast.If):
                 for condition, _ in node.branches:
                     self._condition(condition)
-            elif isinstance(node, ast.While | ast.For) and node.condition is not None:
+            elif isinstance(node, (ast.While, ast.For)) and node.condition is not None:
                 self._condition(node.condition)
             elif isinstance(node, ast.Switch):
                 self._fall_through(node)

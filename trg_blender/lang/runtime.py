@@ -32,9 +32,12 @@ _HOLDS_SOMETHING = 2_000
 _TEXT_WORK_CHECK = 16 * 1024 * 1024
 
 
-@dataclass(frozen=True, slots=True, eq=False)
+@dataclass(slots=True, eq=False)
 class Site:
-    """A place of the program: its operator if it is one, and the spans of operands or arguments."""
+    """A place of the program: its operator if it is one, and the spans of operands or arguments.
+
+    Not frozen, which would make it four times as slow to construct: a long program has a hundred thousand.
+    """
 
     span: Span
     op: str = ""

@@ -14,6 +14,7 @@ KEYWORDS = frozenset(
     "if else while for in switch case default break continue return function operator".split()
 )
 RESERVED_WORDS = {"true": "write_1", "false": "write_0"}
+_WORDS = KEYWORDS | RESERVED_WORDS.keys()
 MAX_NUMBER_LENGTH = 64
 MAX_STRING_LENGTH = 65_536
 MAX_MARKS = 30
@@ -68,10 +69,21 @@ class _Scanner:
 
     def run(self) -> list[Token]:
         text, position, end = self.source.text, 0, len(self.source.text)
+        name, take, new = self.source.name, self.tokens.append, tuple.__new__
+        find = _TOKEN.match
         while position < end:
-            match = _TOKEN.match(text, position)
+            match = find(text, position)
             if match is None:
                 position = self._skip_unknown(position)
+                continue
+            kind = match.lastgroup
+            # Operators and plain names are nearly all there is: they take no call.
+            if kind == "op" or (kind == "name" and match[0].isascii() and match[0] not in _WORDS):
+                written = match[0]
+                first = position - self.line_start + 1
+                position += len(written)
+                span = new(Span, (name, self.line, first, self.line, first + len(written)))
+                take(new(Token, (kind, written, written, span)))
             else:
                 position = self._take(match)
         self.tokens.append(Token("end", "", "", self._span(end, end)))
@@ -91,8 +103,6 @@ class _Scanner:
             return self._take_number(match.group(), start, end)
         elif kind == "string":
             self._take_string(match.group(), start, end)
-        else:
-            self.tokens.append(Token("op", match.group(), "", self._span(start, end)))
         return end
 
     def _take_name(self, text: str, start: int, end: int) -> None:

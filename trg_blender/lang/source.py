@@ -23,7 +23,7 @@ class Span(NamedTuple):
 
     def to(self, end: Span) -> Span:
         """The span from the start of this one to the end of `end`."""
-        return Span(self.file, self.line, self.col, end.end_line, end.end_col)
+        return tuple.__new__(Span, (*self[:3], *end[3:]))
 
 
 @dataclass(frozen=True, slots=True)

@@ -49,6 +49,8 @@ class TrgError(Exception):
         self.operand = operand
         self.values = values
         self.argument: int | None = None
+        self.renamed: tuple[str, str] | None = None
+        """(written, meant), when the name that ends the place is certainly a typing error."""
 
 
 class Value:

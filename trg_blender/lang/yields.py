@@ -18,6 +18,46 @@ def _last_name(node: ast.Expr) -> str | None:
     return node.name if isinstance(node, _NAMED) else None
 
 
+class _Context:
+    """What one context does with functions: found once, since the fixpoint asks again and again."""
+
+    def __init__(self, resolution: Resolution, info: FunctionInfo | None, nodes: list[ast.Expr]) -> None:
+        self.info = info
+        self.calls: list[ast.Call] = []
+        self.lent: list[tuple[str, FunctionInfo]] = []
+        """Functions, and the names by which they are called from then on."""
+        self.away: list[FunctionInfo] = []
+        """Functions that get away as values."""
+        self.read: set[str] = set()
+        """Names of what is read as a value, built-ins left out."""
+        used: set[int] = set()
+        for node in nodes:
+            if isinstance(node, ast.Assign):
+                used.add(id(node.target))
+                self._lend(node, resolution, used)
+            elif isinstance(node, ast.Call):
+                self.calls.append(node)
+                used.add(id(node.callee))
+        for node in nodes:
+            if isinstance(node, _NAMED):
+                if node.name not in self.read and id(node) not in used:
+                    if not (isinstance(node, ast.Path) and resolution.is_builtin(node, info)):
+                        self.read.add(node.name)
+            elif isinstance(node, ast.Function) and id(node) not in used:
+                self.away.append(resolution.functions[id(node)])
+
+    def _lend(self, node: ast.Assign, resolution: Resolution, used: set[int]) -> None:
+        value, target = node.value, node.target
+        if not isinstance(value, ast.Function) or id(node) not in resolution.statement_values:
+            return
+        # Operators and elements have no name to be called by.
+        is_operator = isinstance(target, ast.Field) and target.name.startswith("operator")
+        name = None if is_operator else _last_name(target)
+        if name is not None:
+            used.add(id(value))
+            self.lent.append((name, resolution.functions[id(value)]))
+
+
 class YieldAnalysis:
     """`may_yield(call, context)` after `run()`; functions that suspend are marked in the resolution."""
 
@@ -25,21 +65,19 @@ class YieldAnalysis:
         self.resolution = resolution
         self.names = {SUSPENDING_METHOD}
         self.escaped = False
-        self._contexts: list[tuple[FunctionInfo | None, list[ast.Expr]]] = [
-            (None, expressions) for expressions in resolution.top.values()
-        ]
-        self._contexts += [(info, info.expressions) for info in resolution.functions.values()]
-        self._calls = [
-            (context, [e for e in expressions if isinstance(e, ast.Call)])
-            for context, expressions in self._contexts
+        self._contexts = [_Context(resolution, None, nodes) for nodes in resolution.top.values()]
+        self._contexts += [
+            _Context(resolution, info, info.expressions) for info in resolution.functions.values()
         ]
 
     def run(self) -> None:
         """Mark functions until nothing changes."""
         state: tuple[object, ...] | None = None
         while True:
-            self._mark_functions()
-            self._follow_values()
+            for context in self._contexts:
+                self._mark(context)
+            for context in self._contexts:
+                self._follow_values(context)
             marked = sum(info.yields for info in self.resolution.functions.values())
             now = (len(self.names), self.escaped, marked)
             if now == state:
@@ -55,39 +93,14 @@ class YieldAnalysis:
             return self.resolution.functions[id(callee)].yields
         return self.escaped or _last_name(callee) in self.names
 
-    def _mark_functions(self) -> None:
-        for context, calls in self._calls:
-            if context is not None and not context.yields:
-                context.yields = any(self.may_yield(call, context) for call in calls)
+    def _mark(self, context: _Context) -> None:
+        info = context.info
+        if info is not None and not info.yields:
+            info.yields = any(self.may_yield(call, info) for call in context.calls)
 
-    def _follow_values(self) -> None:
+    def _follow_values(self, context: _Context) -> None:
         """Lend names to suspending functions; notice those that get away as values."""
-        functions = self.resolution.functions
-        for context, expressions in self._contexts:
-            named: set[int] = set()
-            for node in expressions:
-                if isinstance(node, ast.Assign):
-                    named.add(id(node.target))
-                    value = node.value
-                    is_statement = id(node) in self.resolution.statement_values
-                    name = self._lends_name(node.target) if is_statement else None
-                    if isinstance(value, ast.Function) and name is not None:
-                        named.add(id(value))
-                        if functions[id(value)].yields:
-                            self.names.add(name)
-                elif isinstance(node, ast.Call):
-                    named.add(id(node.callee))
-            for node in expressions:
-                if id(node) in named or self.escaped:
-                    continue
-                if isinstance(node, ast.Function):
-                    self.escaped = functions[id(node)].yields
-                elif isinstance(node, _NAMED) and node.name in self.names:
-                    builtin = isinstance(node, ast.Path) and self.resolution.is_builtin(node, context)
-                    self.escaped = not builtin
-
-    @staticmethod
-    def _lends_name(target: ast.Target) -> str | None:
-        """The name by which a function assigned to `target` is called; operators and elements have none."""
-        is_operator = isinstance(target, ast.Field) and target.name.startswith("operator")
-        return None if is_operator else _last_name(target)
+        self.names.update(name for name, info in context.lent if info.yields)
+        if not self.escaped:
+            away = any(info.yields for info in context.away)
+            self.escaped = away or not self.names.isdisjoint(context.read)
