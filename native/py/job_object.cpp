@@ -89,8 +89,10 @@ PyObject* combined_method(PyObject* self, PyObject* out) {
         const Film& film = job_of(self).film();
         Buffer pixels =
             Buffer::of<float>(out, "out", {film.height(), film.width(), 4}, Access::write);
-        const WithoutGil unlocked;
-        film.read_combined(pixels.mutable_data<float>());
+        {
+            const WithoutGil unlocked;
+            film.read_combined(pixels.mutable_data<float>());
+        }
         return none();
     });
 }
@@ -100,8 +102,10 @@ PyObject* depth_method(PyObject* self, PyObject* out) {
         const Film& film = job_of(self).film();
         if (!film.passes().depth) throw StateError("the render was not asked for depth");
         Buffer pixels = Buffer::of<float>(out, "out", {film.height(), film.width()}, Access::write);
-        const WithoutGil unlocked;
-        film.read_depth(pixels.mutable_data<float>());
+        {
+            const WithoutGil unlocked;
+            film.read_depth(pixels.mutable_data<float>());
+        }
         return none();
     });
 }
@@ -112,8 +116,10 @@ PyObject* normal_method(PyObject* self, PyObject* out) {
         if (!film.passes().normal) throw StateError("the render was not asked for normals");
         Buffer pixels =
             Buffer::of<float>(out, "out", {film.height(), film.width(), 3}, Access::write);
-        const WithoutGil unlocked;
-        film.read_normal(pixels.mutable_data<float>());
+        {
+            const WithoutGil unlocked;
+            film.read_normal(pixels.mutable_data<float>());
+        }
         return none();
     });
 }
@@ -131,8 +137,10 @@ PyObject* read_pass_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         Buffer pixels = Buffer::of<float>(
             out, "out", {film.height(), film.width(), film.pass_film().channels(kind)},
             Access::write);
-        const WithoutGil unlocked;
-        film.read_pass(kind, pixels.mutable_data<float>());
+        {
+            const WithoutGil unlocked;
+            film.read_pass(kind, pixels.mutable_data<float>());
+        }
         return none();
     });
 }
@@ -146,8 +154,10 @@ PyObject* replicates_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         Buffer planes = Buffer::of<double>(
             sums, "sums", {kReplicates, film.height(), film.width(), 3}, Access::write);
         Buffer numbers = Buffer::of<int64_t>(counts, "counts", {kReplicates}, Access::write);
-        const WithoutGil unlocked;
-        film.read_replicates(planes.mutable_data<double>(), numbers.mutable_data<int64_t>());
+        {
+            const WithoutGil unlocked;
+            film.read_replicates(planes.mutable_data<double>(), numbers.mutable_data<int64_t>());
+        }
         return none();
     });
 }
