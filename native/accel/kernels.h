@@ -9,9 +9,15 @@ namespace trg {
 
 struct WorldIndex;
 
+struct RayBatch {
+    const Ray* rays;
+    const float* times;  // one a ray; null: all in the middle of the shutter
+    int count;
+};
+
 struct Kernels {
-    void (*closest)(const WorldIndex& index, const Ray* rays, Hit* hits, int count);
-    void (*any)(const WorldIndex& index, const Ray* rays, uint8_t* hidden, int count);
+    void (*closest)(const WorldIndex& index, const RayBatch& batch, Hit* hits);
+    void (*any)(const WorldIndex& index, const RayBatch& batch, uint8_t* hidden);
 };
 
 namespace baseline {

@@ -11,7 +11,16 @@ struct ShapeRay {
     Vec3d origin, direction;
 };
 
+/// From the world to the space of a placement that moves.
+TRG_FN InverseMap into_at(const Placement& placement, float time) {
+    return inverse_map(transform_at(placement.keys, placement.key_count, time));
+}
+
 TRG_FN ShapeRay enter_shape(const Placement& placement, const TracedRay& ray) {
+    if (placement.key_count > 0) {
+        const InverseMap into = into_at(placement, ray.time);
+        return {point_into(into, ray.origin_d), vector_into(into, ray.direction_d)};
+    }
     if (placement.identity) return {ray.origin_d, ray.direction_d};
     return {point_into(placement.into, ray.origin_d), vector_into(placement.into, ray.direction_d)};
 }

@@ -140,22 +140,42 @@ TRG_FN void trace_batch(const Query& query, int count) {
     trace_stream<Block>(query, waiting, waiters);
 }
 
-TRG_FN void trace_closest(const WorldIndex& index, const Ray* rays, Hit* hits, int count) {
-    if (index.triangle_test == TriangleTest::classic)
-        trace_batch<PlaneBlock>(ClosestQuery<PlaneBlock>{index, rays, hits}, count);
-    else
-        trace_batch<CornerBlock>(ClosestQuery<CornerBlock>{index, rays, hits}, count);
+TRG_FN float time_of(const RayBatch& batch, int k) {
+    return batch.times ? batch.times[k] : kMiddleTime;
 }
 
-TRG_FN void trace_any(const WorldIndex& index, const Ray* rays, uint8_t* hidden, int count) {
+template <class Block>
+TRG_FN void trace_closest(const WorldIndex& index, const RayBatch& batch, Hit* hits) {
+    if (!index.moving)
+        return trace_batch<Block>(ClosestQuery<Block>{index, batch.rays, hits}, batch.count);
+    for (int k = 0; k < batch.count; ++k)
+        hits[k] = closest_hit<Block>(index, batch.rays[k], time_of(batch, k));
+}
+
+template <class Block>
+TRG_FN void trace_any(const WorldIndex& index, const RayBatch& batch, uint8_t* hidden) {
+    if (!index.moving)
+        return trace_batch<Block>(AnyQuery<Block>{index, batch.rays, hidden}, batch.count);
+    for (int k = 0; k < batch.count; ++k)
+        hidden[k] = is_hidden<Block>(index, batch.rays[k], time_of(batch, k));
+}
+
+TRG_FN void find_closest(const WorldIndex& index, const RayBatch& batch, Hit* hits) {
     if (index.triangle_test == TriangleTest::classic)
-        trace_batch<PlaneBlock>(AnyQuery<PlaneBlock>{index, rays, hidden}, count);
+        trace_closest<PlaneBlock>(index, batch, hits);
     else
-        trace_batch<CornerBlock>(AnyQuery<CornerBlock>{index, rays, hidden}, count);
+        trace_closest<CornerBlock>(index, batch, hits);
+}
+
+TRG_FN void find_any(const WorldIndex& index, const RayBatch& batch, uint8_t* hidden) {
+    if (index.triangle_test == TriangleTest::classic)
+        trace_any<PlaneBlock>(index, batch, hidden);
+    else
+        trace_any<CornerBlock>(index, batch, hidden);
 }
 
 Kernels trace_kernels() {
-    return {trace_closest, trace_any};
+    return {find_closest, find_any};
 }
 
 }  // namespace trg::TRG_ISA

@@ -48,10 +48,15 @@ TRG_FN bool soup_hides(const Soup& soup, const TracedRay& ray, float t_max) {
     return walk_soup<false, Block>(soup, ray, &limit, visit);
 }
 
+TRG_FN TracedRay enter_space(const InverseMap& into, const TracedRay& ray) {
+    return prepare_ray(to_float(point_into(into, ray.origin_d)),
+                       to_float(vector_into(into, ray.direction_d)), ray.t_min);
+}
+
 /// The ray in the space of a placed soup; distances stay what they are.
 TRG_FN TracedRay enter_placement(const Placement& placement, const TracedRay& ray) {
-    return prepare_ray(to_float(point_into(placement.into, ray.origin_d)),
-                       to_float(vector_into(placement.into, ray.direction_d)), ray.t_min);
+    if (placement.key_count > 0) return enter_space(into_at(placement, ray.time), ray);
+    return enter_space(placement.into, ray);
 }
 
 /// False where a placement is so small or far that the ray's numbers there are none: empty lanes of
@@ -155,20 +160,22 @@ TRG_FN bool is_empty(const WorldIndex& index) {
 }
 
 template <class Block>
-TRG_FN Hit closest_hit(const WorldIndex& index, const Ray& ray) {
+TRG_FN Hit closest_hit(const WorldIndex& index, const Ray& ray, float time = kMiddleTime) {
     if (!is_traceable(ray) || is_empty(index)) return no_hit();
     const ScaledRay scaled = scale_ray(ray);
-    const TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
+    TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
+    traced.time = time;
     Search search = start_search(scaled.ray.t_max);
     search_world<Block>(index, traced, search);
     return resolve_hit<Block>(search, traced, scaled.scale);
 }
 
 template <class Block>
-TRG_FN bool is_hidden(const WorldIndex& index, const Ray& ray) {
+TRG_FN bool is_hidden(const WorldIndex& index, const Ray& ray, float time = kMiddleTime) {
     if (!is_traceable(ray) || is_empty(index)) return false;
     const ScaledRay scaled = scale_ray(ray);
-    const TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
+    TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
+    traced.time = time;
     return world_hides<Block>(index, traced, scaled.ray.t_max);
 }
 

@@ -5,6 +5,7 @@
 
 #include "accel/wide8.h"
 #include "accel/world_index.h"
+#include "geom/motion.h"
 #include "geom/ray.h"
 
 namespace trg::TRG_ISA {
@@ -23,6 +24,7 @@ struct TracedRay : ExactRay {
     float inverse[3];  // 1 / direction
     int sign[3];       // 1 where the direction is negative: the high plane is near
     float t_min;
+    float time;              // 0 to 1 while the shutter is open
     int kx, ky, kz;          // kz: the axis along which the direction is longest
     float shear_x, shear_y;  // direction[kx], direction[ky] over direction[kz]
 };
@@ -38,6 +40,7 @@ TRG_INLINE_FN TracedRay prepare_ray(Vec3 origin, Vec3 direction, float t_min) {
         ray.sign[axis] = std::signbit(d[axis]) ? 1 : 0;
     }
     ray.t_min = t_min;
+    ray.time = kMiddleTime;
     // Without branches: which axis is longest is anyone's guess.
     constexpr int kNext[4] = {1, 2, 0, 0};
     const float x = std::fabs(d[0]), y = std::fabs(d[1]), z = std::fabs(d[2]);

@@ -8,8 +8,13 @@ namespace trg {
 
 Instance make_instance(int mesh, const Transform& object_to_world) {
     const bool identity = is_identity(object_to_world);
-    return {mesh, identity, determinant(object_to_world) < 0, object_to_world,
-            identity ? object_to_world : inverse(object_to_world)};
+    return {mesh,
+            identity,
+            determinant(object_to_world) < 0,
+            object_to_world,
+            identity ? object_to_world : inverse(object_to_world),
+            0,
+            0};
 }
 
 int add_mesh(World& world, Mesh mesh) {
@@ -24,12 +29,25 @@ int add_instance(World& world, int mesh, const Transform& object_to_world) {
     return static_cast<int>(world.instances.size()) - 1;
 }
 
-void intersect_closest(const World& world, const Ray* rays, Hit* hits, int count) {
-    world.index->kernels.closest(*world.index, rays, hits, count);
+void set_motion(World& world, int number, const std::vector<Transform>& keys) {
+    world.index.reset();
+    const auto count = static_cast<int32_t>(keys.size());
+    Instance& instance = world.instances[number];
+    instance = make_instance(instance.mesh, transform_at(keys.data(), count, kMiddleTime));
+    instance.identity = false;  // never merged with what stands still
+    instance.key_count = count;
+    instance.first_key = static_cast<int64_t>(world.motion_keys.size());
+    world.motion_keys.insert(world.motion_keys.end(), keys.begin(), keys.end());
 }
 
-void intersect_any(const World& world, const Ray* rays, uint8_t* hidden, int count) {
-    world.index->kernels.any(*world.index, rays, hidden, count);
+void intersect_closest(const World& world, const Ray* rays, Hit* hits, int count,
+                       const float* times) {
+    world.index->kernels.closest(*world.index, {rays, times, count}, hits);
+}
+
+void intersect_any(const World& world, const Ray* rays, uint8_t* hidden, int count,
+                   const float* times) {
+    world.index->kernels.any(*world.index, {rays, times, count}, hidden);
 }
 
 }  // namespace trg

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/isa.h"
+#include "geom/motion.h"
 #include "geom/ray.h"
 #include "geom/transform.h"
 
@@ -32,8 +33,10 @@ struct Instance {
     int32_t mesh;
     bool identity;
     bool mirrored;
-    Transform object_to_world;
+    Transform object_to_world;  // of one that moves: in the middle of the shutter
     Transform world_to_object;
+    int32_t key_count = 0;  // of one that moves, its keys in World::motion_keys; else 0
+    int64_t first_key = 0;
 };
 
 struct BuildStats {
@@ -56,6 +59,7 @@ struct World {
     Isa isa = detect_isa();  // what queries and kernels are compiled for
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
+    std::vector<Transform> motion_keys;  // of all that move, in a row
     std::shared_ptr<WorldIndex> index;
 };
 
@@ -68,6 +72,11 @@ int add_mesh(World& world, Mesh mesh);
 
 /// Adds such a copy to the world.
 int add_instance(World& world, int mesh, const Transform& object_to_world);
+
+/// Makes instance `number` move through two or more places while the shutter is open
+/// (geom/motion.h). Rays meet it where it is at their time; packets and streams are off in a world
+/// that moves.
+void set_motion(World& world, int number, const std::vector<Transform>& keys);
 
 /// Builds the index over everything added so far. Triangles with coordinates that are not finite or
 /// exceed 1e18 and triangles of no area are left out and counted as degenerate. About `rays` rays
@@ -82,6 +91,7 @@ struct UpdateStats {
 
 /// Gives instances `first` and on the given places and builds the top level anew. Needs a built
 /// world. Where one of them had been merged with others into one index, everything is built anew.
+/// One that moved while the shutter is open stands still from then on.
 UpdateStats move_instances(World& world, int first, const std::vector<Transform>& places,
                            int threads);
 
@@ -90,10 +100,13 @@ UpdateStats move_instances(World& world, int first, const std::vector<Transform>
 UpdateStats move_vertices(World& world, int mesh, std::vector<Vec3> vertices, int threads);
 
 /// Fills `hits` with the nearest hit of each ray, ties by (t, instance, triangle). Needs a built
-/// world; many threads may call it at once; allocates nothing.
-void intersect_closest(const World& world, const Ray* rays, Hit* hits, int count);
+/// world; many threads may call it at once; allocates nothing. `times`, one a ray, count where
+/// something moves; null is the middle of the shutter.
+void intersect_closest(const World& world, const Ray* rays, Hit* hits, int count,
+                       const float* times = nullptr);
 
 /// Sets `hidden[i]` to 1 where ray i meets any triangle, else to 0. As thread-safe as above.
-void intersect_any(const World& world, const Ray* rays, uint8_t* hidden, int count);
+void intersect_any(const World& world, const Ray* rays, uint8_t* hidden, int count,
+                   const float* times = nullptr);
 
 }  // namespace trg

@@ -25,8 +25,14 @@ Kernels kernels_of([[maybe_unused]] Isa isa) {
     return baseline::trace_kernels();
 }
 
-Placement place_soup(const Soup& soup, int32_t number, const Instance& instance) {
-    return {&soup, number, instance.identity, inverse_map(instance.object_to_world)};
+Placement place_soup(const World& world, const Soup& soup, int32_t number) {
+    const Instance& instance = world.instances[number];
+    return {&soup,
+            number,
+            instance.identity,
+            inverse_map(instance.object_to_world),
+            world.motion_keys.data() + instance.first_key,
+            instance.key_count};
 }
 
 float rounded_down(double x) {
@@ -81,6 +87,18 @@ Bounds placed_bounds(const Soup& soup, const Instance& instance) {
     return rounded_outwards(low, high);
 }
 
+/// The same over all of the way of one that moves: between two keys its points go straight.
+Bounds moving_bounds(const World& world, const Soup& soup, const Instance& instance) {
+    if (instance.key_count == 0) return placed_bounds(soup, instance);
+    Bounds box = empty_bounds();
+    Instance at = instance;
+    for (int32_t k = 0; k < instance.key_count; ++k) {
+        at.object_to_world = world.motion_keys[instance.first_key + k];
+        box = united(box, placed_bounds(soup, at));
+    }
+    return box;
+}
+
 /// Instances whose mesh nobody else uses and that stand where the mesh is, and all the others.
 struct Shares {
     std::vector<int32_t> merged, placed;
@@ -121,8 +139,7 @@ void build_soups(const World& world, const SoupSettings& settings, WorldIndex& i
 /// The placement of instance `number`; -1 is the merged soup.
 Placement placement_of(const World& world, const WorldIndex& index, int32_t number) {
     if (number < 0) return {index.merged, -1, true, {}};
-    const Instance& instance = world.instances[number];
-    return place_soup(*index.soup_of_mesh[instance.mesh], number, instance);
+    return place_soup(world, *index.soup_of_mesh[world.instances[number].mesh], number);
 }
 
 /// Whether there is something in the box, and all of it near enough to be met: a little more than
@@ -148,7 +165,7 @@ PrimRefs gather_boxes(const World& world, WorldIndex& index) {
         if (soup->shape == Shape::plane)
             index.unbounded.push_back(placement_of(world, index, number));
         if (soup->shape == Shape::plane) continue;
-        const Bounds box = placed_bounds(*soup, instance);
+        const Bounds box = moving_bounds(world, *soup, instance);
         if (can_be_met(box)) refs.push_back(make_ref(box, number));
     }
     return refs;
@@ -178,6 +195,7 @@ void place_soups(const World& world, WorldIndex& index, int threads) {
     index.placements = {};
     index.unbounded = {};
     index.top = {};
+    index.moving = !world.motion_keys.empty();
     PrimRefs refs = gather_boxes(world, index);
     if (refs.size() > 1) index.top = build_tree(refs, {1, threads});
     index.placements.reserve(refs.size());

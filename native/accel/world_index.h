@@ -11,7 +11,9 @@ struct Placement {
     const Soup* soup;
     int32_t instance;  // -1: a merged soup, whose items tell
     bool identity;
-    InverseMap into;  // from the world to the soup's space
+    InverseMap into;                  // from the world to the soup's space, where it stands still
+    const Transform* keys = nullptr;  // of one that moves, from its space to the world
+    int32_t key_count = 0;
 };
 
 struct WorldIndex {
@@ -23,6 +25,7 @@ struct WorldIndex {
     std::vector<Placement> placements;  // in the order of the leaves of `top`
     Tree top;                           // over placements; unused when there is only one
     std::vector<Placement> unbounded;   // planes: no box holds them
+    bool moving = false;                // whether time changes anything
     int64_t bytes = 0;                  // of all that rays may touch
     Kernels kernels{};
 };

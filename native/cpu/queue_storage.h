@@ -21,6 +21,8 @@ class QueueStorage {
           shadow_rays_(static_cast<size_t>(capacity) * lights),
           shadows_(static_cast<size_t>(capacity) * lights),
           hidden_(static_cast<size_t>(capacity) * (lights > 1 ? lights : 1)),
+          times_(capacity),
+          ray_times_(hidden_.size()),
           depth_(capacity) {
         if (!passes.needs_kernels()) return;
         stride_ = lay_out_passes(passes).stride;
@@ -43,7 +45,9 @@ class QueueStorage {
                 shadows_.data(),
                 hidden_.data(),
                 {pass_values_.data(), stride_, pass_states_.data(), pass_hits_.data(),
-                 shadow_shares_.data()}};
+                 shadow_shares_.data()},
+                times_.data(),
+                ray_times_.data()};
     }
     float* depth() { return depth_.data(); }
 
@@ -57,6 +61,7 @@ class QueueStorage {
     std::vector<Ray> shadow_rays_;
     std::vector<ShadowState> shadows_;
     std::vector<uint8_t> hidden_;
+    std::vector<float> times_, ray_times_;
     std::vector<float> depth_;
     int32_t stride_ = 0;
     std::vector<float> pass_values_;

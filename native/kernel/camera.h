@@ -20,13 +20,14 @@ TRG_FN Vec3 sample_aperture(const CameraView& c, Sample2 uv) {
         x = along * std::cos(turn) - aside * std::sin(turn);
         y = along * std::sin(turn) + aside * std::cos(turn);
     }
-    return c.axis_x * (x * c.aperture * c.squeeze) + c.axis_y * (y * c.aperture);
+    return c.pose.axis_x * (x * c.aperture * c.squeeze) + c.pose.axis_y * (y * c.aperture);
 }
 
 /// Unit direction of longitude `x` to the right and latitude `y`.
 TRG_FN Vec3 panorama_direction(const CameraView& c, float x, float y) {
     const float rim = std::cos(y);
-    return c.axis_x * (rim * std::sin(x)) + c.axis_y * std::sin(y) - c.axis_z * (rim * std::cos(x));
+    return c.pose.axis_x * (rim * std::sin(x)) + c.pose.axis_y * std::sin(y) -
+           c.pose.axis_z * (rim * std::cos(x));
 }
 
 /// The ray through (x, y) in pixels of the whole picture, its lens point drawn by `lens`. Its t is
@@ -36,10 +37,10 @@ TRG_FN Ray make_camera_ray(const RenderView& view, float x, float y, Sample2 len
     const float sx = c.left + (c.right - c.left) * (x / static_cast<float>(view.width));
     const float sy = c.bottom + (c.top - c.bottom) * (y / static_cast<float>(view.height));
     const bool perspective = c.kind == CameraKind::perspective;
-    const Vec3 across = c.axis_x * sx + c.axis_y * sy;
+    const Vec3 across = c.pose.axis_x * sx + c.pose.axis_y * sy;
     Ray ray;
-    ray.origin = c.kind == CameraKind::orthographic ? c.origin + across : c.origin;
-    ray.direction = perspective ? across - c.axis_z : -c.axis_z;
+    ray.origin = c.kind == CameraKind::orthographic ? c.pose.origin + across : c.pose.origin;
+    ray.direction = perspective ? across - c.pose.axis_z : -c.pose.axis_z;
     if (c.kind == CameraKind::panorama) ray.direction = panorama_direction(c, sx, sy);
     ray.t_min = c.clip_start;
     ray.t_max = c.clip_end;
@@ -56,6 +57,21 @@ TRG_FN Ray make_camera_ray(const RenderView& view, float x, float y) {
     RenderView sharp = view;
     sharp.scene.camera.aperture = 0.0f;
     return make_camera_ray(sharp, x, y, {0.5f, 0.5f});
+}
+
+TRG_FN CameraPose pose_at(const CameraPose& a, const CameraPose& b, float part) {
+    return {point_at(a.axis_x, b.axis_x, part), point_at(a.axis_y, b.axis_y, part),
+            point_at(a.axis_z, b.axis_z, part), point_at(a.origin, b.origin, part)};
+}
+
+/// The view from where a camera that moves is at `time`.
+TRG_FN RenderView view_at(const RenderView& view, float time) {
+    const SceneView& scene = view.scene;
+    RenderView moved = view;
+    const MotionStep at = motion_step(scene.camera_key_count, time);
+    const CameraPose* key = scene.camera_keys + at.key;
+    moved.scene.camera.pose = pose_at(key[0], key[1], at.part);
+    return moved;
 }
 
 /// Where in or about a pixel `u` of the filter falls, from its lower edge.
@@ -80,9 +96,12 @@ TRG_FN int32_t generate_paths(const RenderView& view, const Chunk& chunk, PathQu
         const Sample2 lens = view.scene.camera.aperture > 0.0f
                                  ? sample_uniform2(key, kLensDimension)
                                  : Sample2{0.5f, 0.5f};
-        queues.rays[i] =
-            make_camera_ray(view, static_cast<float>(pixel.x) + filter_place(view, uv.u),
-                            static_cast<float>(pixel.y) + filter_place(view, uv.v), lens);
+        const float x = static_cast<float>(pixel.x) + filter_place(view, uv.u);
+        const float y = static_cast<float>(pixel.y) + filter_place(view, uv.v);
+        if (view.scene.timed) queues.times[i] = sample_uniform2(key, kTimeDimension).u;
+        queues.rays[i] = view.scene.camera_key_count > 0
+                             ? make_camera_ray(view_at(view, queues.times[i]), x, y, lens)
+                             : make_camera_ray(view, x, y, lens);
         queues.states[i] = {{1.0f, 1.0f, 1.0f}, 0.0f, i};
         queues.results[i] = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, false};
     }

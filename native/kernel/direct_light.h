@@ -31,7 +31,7 @@ TRG_FN Vec3 eval_emission(const SceneView& scene, const Surface& s, Vec3 wo) {
     const Material& m = scene.materials[s.material];
     if constexpr (has(F, kTextures))
         if (m.emission_texture >= 0) {
-            LookUp look{scene, s, wo, false, {}};
+            LookUp look{scene, s, wo, false, {}, {}};
             return m.emission * look_up<F>(&look, m.emission_texture);
         }
     return m.emission;
@@ -43,7 +43,7 @@ TRG_FN float alpha_of(const SceneView& scene, const Surface& s, Vec3 wo) {
     const Material& m = scene.materials[s.material];
     if constexpr (has(F, kTextures))
         if (m.alpha_texture >= 0) {
-            LookUp look{scene, s, wo, false, {}};
+            LookUp look{scene, s, wo, false, {}, {}};
             return clamp01(look_up<F>(&look, m.alpha_texture).x);
         }
     return m.alpha;
@@ -98,7 +98,7 @@ template <uint32_t F>
 TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v,
                                 const TriangleChoice& choice, Sample2 uv, ShadowQueue* queue) {
     const EmissiveTriangle& at = choice.at;
-    const Surface s = sample_emitter<F>(scene, at, uv.u, uv.v);
+    const Surface s = sample_emitter<F>(scene, at, uv, v.surface.time);
     const Material& m = scene.materials[s.material];
     const bool in_front = dot(s.outside, v.surface.position - s.position) > 0.0f;
     const Vec3 target = leave_surface(s, in_front ? s.outside : -s.outside);

@@ -13,12 +13,13 @@ struct LookUp {
     Vec3 wo;
     bool ready;
     TexturePoint point;
+    Instance moved;  // of one that moves
 };
 
 /// A step for bumps: about a pixel as the camera would see the point, and no finer than rounding
 /// allows.
 TRG_FN float bump_step(const SceneView& scene, Vec3 position) {
-    const Vec3 to = position - scene.camera.origin;
+    const Vec3 to = position - scene.camera.pose.origin;
     const float distance = scene.camera.kind != CameraKind::orthographic ? length(to) : 1.0f;
     const float size = max_component(absolute(position));
     return larger(scene.pixel_spread * distance, 2e-4f * size + 1e-9f);
@@ -36,7 +37,8 @@ TRG_FN void set_normals(const SceneView& scene, const Surface& s, Vec3 wo, Textu
 TRG_RARE_FN void fill_point(LookUp* look) {
     const SceneView& scene = look->scene;
     const Surface& s = look->surface;
-    const Instance& instance = scene.instances[s.at.instance];
+    Instance& moved = look->moved;
+    const Instance& instance = instance_at(scene, s.at.instance, s.time, &moved);
     TexturePoint& p = look->point;
     p.position = s.position;
     p.wo = look->wo;

@@ -89,7 +89,8 @@ TRG_FN void note_features(const RenderView& view, PassQueues& passes, const Vert
     const Vec3 n = v.frame.n;
     add_to_pass(passes, layout.at[kDenoisingAlbedo], v.path, feature * broad);
     add_to_pass(passes, layout.at[kDenoisingNormal], v.path,
-                Vec3{dot(n, c.axis_x), dot(n, c.axis_y), -dot(n, c.axis_z)} * luminance(feature));
+                Vec3{dot(n, c.pose.axis_x), dot(n, c.pose.axis_y), -dot(n, c.pose.axis_z)} *
+                    luminance(feature));
     feature = {0.0f, 0.0f, 0.0f};
 }
 

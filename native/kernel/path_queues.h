@@ -61,7 +61,14 @@ struct PathQueues {
     ShadowState* shadows;
     uint8_t* hidden;
     PassQueues passes;
+    float* times;      // by path, 0 to 1 while the shutter is open; only where something moves
+    float* ray_times;  // of the rays that are traced next
 };
+
+/// `path` as a state of a path or a shadow ray has it.
+TRG_FN float path_time(const SceneView& scene, const PathQueues& queues, int32_t path) {
+    return scene.timed ? queues.times[path < 0 ? ~path : path] : kMiddleTime;
+}
 
 struct Pixel {
     int32_t x, y;
@@ -92,6 +99,7 @@ struct RayCounts {
 enum Dimension : uint32_t {
     kPixelDimension = 0,
     kLensDimension = 1,
+    kTimeDimension = (1u << 24) - 1,
     kFirstBounceDimension = 2,
     kDirection = 0,
     kLobe = 1,  // lobe and roulette

@@ -42,6 +42,11 @@ struct MeshView {
     Shape shape;           // none of these where it is not triangles
 };
 
+/// Where a camera stands.
+struct CameraPose {
+    Vec3 axis_x, axis_y, axis_z, origin;
+};
+
 /// Or triangle 0 of a sphere, which is the sphere.
 struct EmissiveTriangle {
     int32_t instance, triangle;
@@ -69,7 +74,7 @@ enum class CameraKind : int32_t { perspective, orthographic, panorama };
 
 struct CameraView {
     CameraKind kind;
-    Vec3 axis_x, axis_y, axis_z, origin;
+    CameraPose pose;                 // of one that moves: in the middle of the shutter
     float left, right, bottom, top;  // of a panorama: longitudes and latitudes
     float aperture;                  // radius of the lens; 0: all is sharp
     float focus;                     // depth of what is sharp
@@ -84,6 +89,10 @@ struct SceneView {
     const World* world;
     const MeshView* meshes;
     const Instance* instances;
+    const Transform* motion_keys;   // of the instances that move
+    const CameraPose* camera_keys;  // of a camera that moves, as geom/motion.h has keys
+    int32_t camera_key_count;       // or 0
+    bool timed;                     // whether anything moves, so that paths have times
     const int32_t* slot_materials;  // of all instances in a row
     const int64_t* first_slot;      // one an instance
     const int32_t* slot_count;      // one an instance; 0: material 0

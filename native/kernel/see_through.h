@@ -14,28 +14,29 @@ constexpr uint32_t kFirstSheetDimension = 1u << 24;
 /// The material at a hit where its surface is partly there, else null; `alpha` is how much is
 /// there.
 template <uint32_t F>
-TRG_FN const Material* thin_material(const SceneView& scene, const Ray& ray, const Hit& hit,
+TRG_FN const Material* thin_material(const SceneView& scene, const TimedRay& ray, const Hit& hit,
                                      float* alpha) {
     const Material& m = scene.materials[material_of(scene, {hit.instance, hit.triangle})];
     if (m.alpha >= 1.0f && m.alpha_texture < 0) return nullptr;
-    *alpha = alpha_of<F>(scene, surface_of_hit<F>(scene, ray, hit), -normalize(ray.direction));
+    *alpha = alpha_of<F>(scene, surface_of_hit<F>(scene, ray, hit), -normalize(ray.ray.direction));
     return *alpha < 1.0f ? &m : nullptr;
 }
 
 /// Moves the start of `ray` just past `hit` and finds what lies beyond.
-TRG_FN void look_beyond(const World& world, Ray* ray, Hit* hit) {
+TRG_FN void look_beyond(const World& world, TimedRay* timed, Hit* hit) {
+    Ray* ray = &timed->ray;
     ray->t_min = hit->t * 1.0000002f + 1e-37f;
     *hit = no_hit();
-    if (ray->t_max > ray->t_min) intersect_closest(world, ray, hit, 1);
+    if (ray->t_max > ray->t_min) intersect_closest(world, ray, hit, 1, &timed->time);
 }
 
 /// Brings the path in `slot` to the first surface that stops it, by chance where that is partly
 /// there.
 template <uint32_t F>
 TRG_FN void pass_sheets(const SceneView& scene, PathQueues& queues, int32_t slot, int32_t depth) {
-    Ray& ray = queues.rays[slot];
     Hit& hit = queues.hits[slot];
     PathState& state = queues.states[slot];
+    TimedRay ray{queues.rays[slot], path_time(scene, queues, state.path)};
     const uint32_t first = kFirstSheetDimension + static_cast<uint32_t>(depth) * kMostSheets;
     for (uint32_t sheet = 0; sheet < kMostSheets && hit.triangle >= 0; ++sheet) {
         float alpha;
@@ -43,14 +44,17 @@ TRG_FN void pass_sheets(const SceneView& scene, PathQueues& queues, int32_t slot
         if (!m || sample_uniform2(queues.keys[state.path], first + sheet).u < alpha) return;
         state.throughput = state.throughput * m->through;
         look_beyond(*scene.world, &ray, &hit);
+        queues.rays[slot] = ray.ray;
     }
 }
 
-/// Dims the light of a shadow ray by all that it passes; true when something solid stops it.
+/// Dims the light of shadow ray `number` by all that it passes; true when something solid stops it.
 template <uint32_t F>
-TRG_FN bool dim_shadow(const SceneView& scene, Ray ray, ShadowState* state) {
+TRG_FN bool dim_shadow(const SceneView& scene, PathQueues& queues, int32_t number) {
+    ShadowState* state = &queues.shadows[number];
+    TimedRay ray{queues.shadow_rays[number], path_time(scene, queues, state->path)};
     Hit hit = no_hit();
-    intersect_closest(*scene.world, &ray, &hit, 1);
+    intersect_closest(*scene.world, &ray.ray, &hit, 1, &ray.time);
     for (int32_t sheet = 0; sheet < kMostSheets && hit.triangle >= 0; ++sheet) {
         float alpha;
         const Material* m = thin_material<F>(scene, ray, hit, &alpha);

@@ -151,7 +151,7 @@ TRG_FN bool make_vertex(const SceneView& scene, Vec3 wo, Vertex* v, Vec3* normal
         const Vec3 turned = facing < 0.0f ? -smooth : smooth;
         if (dot(wo, turned) > 1e-4f) *normal = turned;
     }
-    LookUp look{scene, s, wo, false, {}};
+    LookUp look{scene, s, wo, false, {}, {}};
     *normal = bent_normal<F>(&look, *normal);
     if (!(dot(wo, *normal) > 0.0f)) return false;
     v->frame = make_frame(*normal);
@@ -240,7 +240,7 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
     }
     if (stage.depth == 0) result.hit = true;
     Vertex v;
-    v.surface = surface_of_hit<F>(scene, ray, hit);
+    v.surface = surface_of_hit<F>(scene, {ray, path_time(scene, stage.queues, state.path)}, hit);
     if constexpr (has(F, kExtendedEmitters))
         if (scene.materials[v.surface.material].emission_weight > 0.0f)
             add_light<F>(stage.view, stage.queues, end, kEmissionPass,

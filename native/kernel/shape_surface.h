@@ -9,6 +9,7 @@ namespace trg {
 struct ShapePoint {
     Vec3d local;  // on the shape, in its own space
     float u, v;   // coordinates on it
+    float time;
 };
 
 TRG_FN Vec3d shape_normal(Shape shape, Vec3d local) {
@@ -44,7 +45,8 @@ TRG_FN float shape_offset(const Instance& instance, Vec3 position, Vec3 n) {
 
 template <uint32_t F>
 TRG_FN Surface make_shape_surface(const SceneView& scene, int32_t number, const ShapePoint& at) {
-    const Instance& instance = scene.instances[number];
+    Instance moved;
+    const Instance& instance = instance_at(scene, number, at.time, &moved);
     const Shape shape = scene.meshes[instance.mesh].shape;
     const Vec3d n =
         normal_out_of(inverse_map(instance.object_to_world), shape_normal(shape, at.local));
@@ -54,6 +56,7 @@ TRG_FN Surface make_shape_surface(const SceneView& scene, int32_t number, const 
     s.error = shape_offset(instance, s.position, s.outside);
     s.at = {number, 0};
     s.b1 = s.b2 = 0.0f;
+    s.time = at.time;
     s.material = material_of(scene, s.at);
     s.u = has(F, kTextures) ? at.u : 0.0f;
     s.v = has(F, kTextures) ? at.v : 0.0f;
@@ -65,8 +68,10 @@ TRG_FN Surface make_shape_surface(const SceneView& scene, int32_t number, const 
 }
 
 /// Where `ray` met the shape, put exactly onto it.
-TRG_FN ShapePoint met_point(const SceneView& scene, const Ray& ray, const Hit& hit) {
-    const Instance& instance = scene.instances[hit.instance];
+TRG_FN ShapePoint met_point(const SceneView& scene, const TimedRay& timed, const Hit& hit) {
+    const Ray& ray = timed.ray;
+    Instance moved;
+    const Instance& instance = instance_at(scene, hit.instance, timed.time, &moved);
     const InverseMap map = inverse_map(instance.object_to_world);
     const Vec3d o = point_into(map, to_double(ray.origin));
     const Vec3d d = vector_into(map, to_double(ray.direction));
@@ -75,29 +80,30 @@ TRG_FN ShapePoint met_point(const SceneView& scene, const Ray& ray, const Hit& h
         p.z = 0.0;
     else
         p = p * (1.0 / std::sqrt(dot(p, p)));
-    return {p, hit.u, hit.v};
+    return {p, hit.u, hit.v, timed.time};
 }
 
 /// The point that `hit` names, of whatever shape.
 template <uint32_t F>
-TRG_FN Surface surface_of_hit(const SceneView& scene, const Ray& ray, const Hit& hit) {
+TRG_FN Surface surface_of_hit(const SceneView& scene, const TimedRay& ray, const Hit& hit) {
     if (scene.meshes[scene.instances[hit.instance].mesh].shape != Shape::triangles)
         return make_shape_surface<F>(scene, hit.instance, met_point(scene, ray, hit));
-    return make_surface<F>(scene, {hit.instance, hit.triangle}, hit.u, hit.v);
+    return make_surface<F>(scene, {hit.instance, hit.triangle}, {hit.u, hit.v, ray.time});
 }
 
-/// An even point of an emissive triangle or unit sphere, from two even numbers.
+/// An even point of an emissive triangle or unit sphere at `time`, from two even numbers.
 template <uint32_t F>
-TRG_FN Surface sample_emitter(const SceneView& scene, const EmissiveTriangle& at, float a,
-                              float b) {
+TRG_FN Surface sample_emitter(const SceneView& scene, const EmissiveTriangle& at, Sample2 even,
+                              float time) {
+    const float a = even.u, b = even.v;
     if (scene.meshes[scene.instances[at.instance].mesh].shape == Shape::triangles) {
         const float root = std::sqrt(a);
-        return make_surface<F>(scene, at, root * (1.0f - b), root * b);
+        return make_surface<F>(scene, at, {root * (1.0f - b), root * b, time});
     }
     const Vec3d p = even_sphere_point(a, b);
     const ShapeCoordinates c = sphere_coordinates(p);
     return make_shape_surface<F>(scene, at.instance,
-                                 {p, static_cast<float>(c.u), static_cast<float>(c.v)});
+                                 {p, static_cast<float>(c.u), static_cast<float>(c.v), time});
 }
 
 }  // namespace trg

@@ -14,7 +14,27 @@ struct Surface {
     int32_t material;
     EmissiveTriangle at;  // where this is
     float b1, b2;         // barycentrics there
+    float time;           // 0 to 1 while the shutter is open
 };
+
+/// A ray and when it travels.
+struct TimedRay {
+    Ray ray;
+    float time;
+};
+
+/// Instance `number` as it stands at `time`; `*moved` is room for one that moves.
+TRG_FN const Instance& instance_at(const SceneView& scene, int32_t number, float time,
+                                   Instance* moved) {
+    const Instance& still = scene.instances[number];
+    if (still.key_count == 0) return still;
+    *moved = still;
+    moved->object_to_world =
+        transform_at(scene.motion_keys + still.first_key, still.key_count, time);
+    moved->world_to_object = inverse(moved->object_to_world);
+    moved->mirrored = determinant(moved->object_to_world) < 0;
+    return *moved;
+}
 
 struct Corners {
     Vec3 p0, e1, e2;
@@ -80,11 +100,29 @@ TRG_FN void prefetch_corners(const SceneView& scene, const Hit& hit) {
 #endif
 }
 
-/// The point with barycentrics (b1, b2). The normal is null where the triangle has no usable one.
-template <uint32_t F>
-TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, float b1,
-                            float b2) {
+/// How much larger than at their own time triangles are by which emitters were chosen: those of the
+/// middle of the shutter. `e1`, `e2` are edges of a moving one at its time.
+TRG_FN float area_growth(const SceneView& scene, const EmissiveTriangle& at, Vec3 e1, Vec3 e2) {
     const Instance& instance = scene.instances[at.instance];
+    const Corners c = triangle_corners(scene.meshes[instance.mesh], at.triangle);
+    const Transform& m = instance.object_to_world;
+    return length(cross(transform_vector(m, c.e1), transform_vector(m, c.e2))) /
+           length(cross(e1, e2));
+}
+
+/// Where on a triangle, and when.
+struct TrianglePlace {
+    float b1, b2;  // barycentrics
+    float time;
+};
+
+/// The point at `place`. The normal is null where the triangle has no usable one.
+template <uint32_t F>
+TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at,
+                            const TrianglePlace& place) {
+    const float b1 = place.b1, b2 = place.b2;
+    Instance moved;
+    const Instance& instance = instance_at(scene, at.instance, place.time, &moved);
     const MeshView& mesh = scene.meshes[instance.mesh];
     const Corners c = triangle_corners(mesh, at.triangle);
     Surface s;
@@ -104,7 +142,10 @@ TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, 
     s.at = at;
     s.b1 = b1;
     s.b2 = b2;
+    s.time = place.time;
     s.sampling = 1.0f;
+    if constexpr (has(F, kExtendedEmitters))
+        if (instance.key_count > 0) s.sampling = area_growth(scene, at, e1, e2);
     s.u = s.v = 0.0f;
     if (has(F, kTextures) && mesh.uvs) {
         const float* uv = mesh.uvs + static_cast<int64_t>(at.triangle) * 6;
@@ -118,7 +159,8 @@ TRG_FN Surface make_surface(const SceneView& scene, const EmissiveTriangle& at, 
 /// The interpolated corner normal in world space, on the side of `outside`'s winding; null where
 /// the mesh has none or where it is no direction.
 TRG_FN Vec3 smooth_normal(const SceneView& scene, const Surface& s) {
-    const Instance& instance = scene.instances[s.at.instance];
+    Instance moved;
+    const Instance& instance = instance_at(scene, s.at.instance, s.time, &moved);
     const float* corner = scene.meshes[instance.mesh].normals;
     if (!corner) return {0.0f, 0.0f, 0.0f};
     corner += static_cast<int64_t>(s.at.triangle) * 9;

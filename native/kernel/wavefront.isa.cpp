@@ -22,10 +22,21 @@ void accumulate_light(const RenderView& view, PathQueues& queues, int32_t depth,
     }
 }
 
+/// The times of rays whose paths `states` tell; null where nothing moves.
+template <class State>
+const float* ray_times(const SceneView& scene, PathQueues& queues, const State* states,
+                       int32_t count) {
+    if (!scene.timed) return nullptr;
+    for (int32_t i = 0; i < count; ++i)
+        queues.ray_times[i] = path_time(scene, queues, states[i].path);
+    return queues.ray_times;
+}
+
 /// Finds where all paths go on to, and which shadow rays are stopped.
 template <uint32_t F>
 void trace_paths(const SceneView& scene, PathQueues& queues, int32_t living, int32_t depth) {
-    intersect_closest(*scene.world, queues.rays, queues.hits, living);
+    intersect_closest(*scene.world, queues.rays, queues.hits, living,
+                      ray_times(scene, queues, queues.states, living));
     if constexpr (has(F, kSeeThrough))
         for (int32_t slot = 0; scene.see_through && slot < living; ++slot)
             pass_sheets<F>(scene, queues, slot, depth);
@@ -35,12 +46,12 @@ void trace_shadows(const SceneView& scene, PathQueues& queues, int32_t count) {
     if constexpr (has(F, kSeeThrough)) {
         if (scene.see_through) {
             for (int32_t i = 0; i < count; ++i)
-                queues.hidden[i] =
-                    dim_shadow<F>(scene, queues.shadow_rays[i], &queues.shadows[i]) ? 1 : 0;
+                queues.hidden[i] = dim_shadow<F>(scene, queues, i) ? 1 : 0;
             return;
         }
     }
-    intersect_any(*scene.world, queues.shadow_rays, queues.hidden, count);
+    intersect_any(*scene.world, queues.shadow_rays, queues.hidden, count,
+                  ray_times(scene, queues, queues.shadows, count));
 }
 
 /// True when rays after the last scattering could still find light.
@@ -52,7 +63,8 @@ bool last_ray_matters(const SceneView& scene) {
 /// The rays after the last scattering when nothing but the world shines: any hit will do.
 template <uint32_t F>
 void finish_in_background(const RenderView& view, PathQueues& queues, int32_t count) {
-    intersect_any(*view.scene.world, queues.rays, queues.hidden, count);
+    intersect_any(*view.scene.world, queues.rays, queues.hidden, count,
+                  ray_times(view.scene, queues, queues.states, count));
     for (int32_t i = 0; i < count; ++i) {
         if (queues.hidden[i]) continue;
         PathResult& result = queues.results[queues.states[i].path];

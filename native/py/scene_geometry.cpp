@@ -11,6 +11,8 @@ namespace trg::py {
 
 namespace {
 
+constexpr int64_t kMostMotionKeys = 1025;
+
 /// Of vertices, triangles, meshes, instances: they are counted by 32 bits.
 constexpr int64_t kMostItems = int64_t{1} << 30;
 
@@ -172,6 +174,32 @@ PyObject* add_instances_method(PyObject* self, PyObject* args, PyObject* kwargs)
     });
 }
 
+PyObject* set_motion_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        long long first;
+        PyObject* transforms;
+        const char* const names[] = {"first", "transforms", nullptr};
+        parse_arguments(args, kwargs, "LO", names, &first, &transforms);
+        const Buffer rows =
+            Buffer::of<float>(transforms, "transforms", {kAnyExtent, kAnyExtent, 3, 4});
+        const int64_t count = rows.extent(0), keys = rows.extent(1);
+        if (keys < 2 || keys > kMostMotionKeys)
+            throw ArgumentError("transforms: expected 2 to " + std::to_string(kMostMotionKeys) +
+                                " keys, got " + std::to_string(keys));
+        std::vector<Transform> all;
+        for (int64_t row = 0; row < count * keys; ++row)
+            all.push_back(checked_transform(rows.data<float>() + 12 * row, "transforms", row));
+        Scene& scene = scene_to_change(self);
+        const auto instances = static_cast<int64_t>(scene.world.instances.size());
+        if (first < 0 || first > instances || count > instances - first)
+            throw ArgumentError("transforms: more than there are instances");
+        for (int64_t k = 0; k < count; ++k)
+            set_motion(scene.world, static_cast<int>(first + k),
+                       {all.begin() + k * keys, all.begin() + (k + 1) * keys});
+        return none();
+    });
+}
+
 PyObject* build_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         int threads = 0;
@@ -220,6 +248,10 @@ PyMethodDef kSceneGeometryMethods[] = {
      "add_plane() -> mesh index\n\nThe infinite plane z = 0."},
     {"add_instance", as_method(add_instance_method), METH_VARARGS | METH_KEYWORDS,
      "add_instance(mesh, transform=None, slot_materials=None) -> instance index"},
+    {"set_motion", as_method(set_motion_method), METH_VARARGS | METH_KEYWORDS,
+     "set_motion(first, transforms)\n\n"
+     "Instances `first` and on go straight from key to key of their row of transforms "
+     "(instances, keys, 3, 4) while the shutter is open."},
     {"add_instances", as_method(add_instances_method), METH_VARARGS | METH_KEYWORDS,
      "add_instances(mesh, transforms, slot_materials=None) -> index of the first"},
     {"build", as_method(build_method), METH_VARARGS | METH_KEYWORDS,

@@ -90,6 +90,17 @@ PyObject* set_camera_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     });
 }
 
+PyObject* set_camera_motion_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        PyObject* matrices;
+        const char* const names[] = {"matrices", nullptr};
+        parse_arguments(args, kwargs, "O", names, &matrices);
+        const Buffer rows = Buffer::of<double>(matrices, "matrices", {kAnyExtent, 3, 4});
+        set_camera_motion(scene_to_change(self).tables, rows.data<double>(), rows.extent(0));
+        return none();
+    });
+}
+
 PyObject* set_filter_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         PyObject* name;
@@ -235,6 +246,9 @@ PyMethodDef kSceneRenderMethods[] = {
      "blades=0, blade_turn=0, squeeze=1)\n\n"
      "kind 0 is perspective, 1 orthographic, 2 a panorama; matrix float64 (3, 4); window float64 "
      "(4,)."},
+    {"set_camera_motion", as_method(set_camera_motion_method), METH_VARARGS | METH_KEYWORDS,
+     "set_camera_motion(matrices)\n\n"
+     "The camera that was set goes straight from key to key of (keys, 3, 4) matrices."},
     {"set_filter", as_method(set_filter_method), METH_VARARGS | METH_KEYWORDS,
      "set_filter(name, width=1.0): box, gaussian or blackman_harris of Blender's width in pixels"},
     {"set_pass_data", as_method(set_pass_data_method), METH_VARARGS | METH_KEYWORDS,

@@ -32,6 +32,10 @@ FrozenScene::FrozenScene(const Scene& scene) {
     view_.world = &scene.world;
     view_.meshes = meshes_.data();
     view_.instances = scene.world.instances.data();
+    view_.motion_keys = scene.world.motion_keys.data();
+    view_.camera_keys = scene.tables.camera_keys.data();
+    view_.camera_key_count = static_cast<int32_t>(scene.tables.camera_keys.size());
+    view_.timed = view_.camera_key_count > 0 || !scene.world.motion_keys.empty();
     view_.slot_materials = scene.slot_materials.data();
     view_.first_slot = scene.first_slot.data();
     view_.slot_count = scene.slot_count.data();

@@ -121,6 +121,24 @@ void set_environment(ShadingTables& tables, Environment environment) {
     tables.environment = std::move(environment);
 }
 
+namespace {
+
+CameraPose read_pose(const double* m) {
+    for (int k = 0; k < 12; ++k)
+        if (!std::isfinite(m[k])) throw TableError("matrix: expected finite numbers");
+    return {to_float(Vec3d{m[0], m[4], m[8]}), to_float(Vec3d{m[1], m[5], m[9]}),
+            to_float(Vec3d{m[2], m[6], m[10]}), to_float(Vec3d{m[3], m[7], m[11]})};
+}
+
+}  // namespace
+
+void set_camera_motion(ShadingTables& tables, const double* matrices, int64_t count) {
+    std::vector<CameraPose> keys;
+    for (int64_t k = 0; k < count; ++k) keys.push_back(read_pose(matrices + 12 * k));
+    if (count < 2) keys.clear();
+    tables.camera_keys.swap(keys);
+}
+
 void set_camera(ShadingTables& tables, const CameraRequest& request) {
     if (request.kind < 0 || request.kind > 2)
         throw TableError("kind: " + std::to_string(request.kind) + ", expected 0, 1 or 2");
@@ -130,8 +148,6 @@ void set_camera(ShadingTables& tables, const CameraRequest& request) {
         throw TableError("focus: expected more than 0");
     if (!std::isfinite(request.blade_turn) || !(request.squeeze > 0.0 && request.squeeze < 1e6))
         throw TableError("blade_turn, squeeze: expected an angle and a positive number");
-    for (int k = 0; k < 12; ++k)
-        if (!std::isfinite(request.matrix[k])) throw TableError("matrix: expected finite numbers");
     for (int k = 0; k < 4; ++k)
         if (!std::isfinite(request.window[k])) throw TableError("window: expected finite numbers");
     if (!(request.clip_start >= 0.0 && request.clip_start < request.clip_end))
@@ -144,10 +160,8 @@ void set_camera(ShadingTables& tables, const CameraRequest& request) {
     c.blades = request.blades;
     c.blade_turn = static_cast<float>(request.blade_turn);
     c.squeeze = static_cast<float>(request.squeeze);
-    c.axis_x = to_float(Vec3d{m[0], m[4], m[8]});
-    c.axis_y = to_float(Vec3d{m[1], m[5], m[9]});
-    c.axis_z = to_float(Vec3d{m[2], m[6], m[10]});
-    c.origin = to_float(Vec3d{m[3], m[7], m[11]});
+    c.pose = read_pose(m);
+    tables.camera_keys.clear();
     c.left = static_cast<float>(request.window[0]);
     c.right = static_cast<float>(request.window[1]);
     c.bottom = static_cast<float>(request.window[2]);

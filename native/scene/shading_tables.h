@@ -29,7 +29,8 @@ struct ShadingTables {
     Vec3 background{0.0f, 0.0f, 0.0f};
     Environment environment;
     CameraView camera{};
-    std::vector<float> filter;  // quantiles; empty: a box of one pixel
+    std::vector<CameraPose> camera_keys;  // of one that moves; else empty
+    std::vector<float> filter;            // quantiles; empty: a box of one pixel
     bool has_camera = false;
 };
 
@@ -54,5 +55,7 @@ void set_environment(ShadingTables& tables, Environment environment);
 /// The pixel filter: box, gaussian or blackman_harris of Blender's `width` in pixels. TableError.
 void set_filter(ShadingTables& tables, const std::string& name, double width);
 void set_camera(ShadingTables& tables, const CameraRequest& request);
+/// Makes the camera that was set move through `count` matrices as above, in a row; below two: not.
+void set_camera_motion(ShadingTables& tables, const double* matrices, int64_t count);
 
 }  // namespace trg

@@ -167,6 +167,36 @@ def _glow() -> SceneArrays:
     return scene
 
 
+def way(*keys: np.ndarray) -> np.ndarray:
+    """(1, keys, 3, 4): the motion of one instance."""
+    return np.stack(keys)[None].astype(np.float32)
+
+
+def at(place: tuple[float, float, float], size: float = 1.0) -> np.ndarray:
+    """(3, 4)"""
+    return np.column_stack([size * np.eye(3), place])
+
+
+def _moving() -> SceneArrays:
+    """A ball that turns a corner, a glowing box that grows, an exact sphere that is half there, a camera."""
+    scene = studio(MATERIALS["plastic"], KEY)
+    scene.materials += [Material(0, 0, 0, emission_r=8, emission_g=6, emission_b=3, specular=0.0)]
+    scene.materials += [Material(0.9, 0.5, 0.4, alpha=0.5, through_g=0.6)]
+    scene.instances[1].motion = way(at((-0.7, 0.3, 0.62)), at((-0.3, 0.3, 0.62)), at((-0.3, 0.3, 1.0)))
+    glowing = place(2, 2)
+    glowing.motion = way(at((0.3, 0.6, 1.6), 0.4), at((0.5, 0.6, 1.6), 1.2))
+    sphere = replace(ball(1.0, 10), shape="sphere")
+    scene.meshes.append(sphere)
+    veiled = place(3, 3)
+    veiled.motion = way(at((0.6, -1.1, 0.3), 0.3), at((1.3, -1.1, 0.5), 0.4))
+    for each in (glowing, veiled):
+        each.transforms = each.motion.mean(axis=1)
+    scene.instances += [glowing, veiled]
+    there = look_at((2.8, -2.2, 1.9), (0.2, 0, 0.3), 0.42).matrix
+    scene.camera.motion = np.stack([scene.camera.matrix, there])
+    return scene
+
+
 def _orthographic() -> SceneArrays:
     scene = studio(MATERIALS["metal"])
     scene.camera = look_at((2.6, -2.4, 1.8), (0, 0, 0.3), 1.5, kind=1)
@@ -299,6 +329,7 @@ GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "lens_blades": lambda: _lens(0, 5),
     "lens_orthographic": lambda: _lens(1, 6),
     "panorama": _panorama,
+    "moving": _moving,
     "orthographic_clipped": _orthographic,
     "all_lights": _all_lights,
     "many_lights": _many_lights,

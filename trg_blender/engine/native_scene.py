@@ -12,6 +12,7 @@ from .scene_arrays import (
     LIGHT_FIELDS,
     MATERIAL_FIELDS,
     TEXTURE_FIELDS,
+    Float32,
     Identity,
     MeshArrays,
     PassData,
@@ -31,9 +32,11 @@ def build_native_scene(
         add_attributes(result, number, mesh)
     for instance in scene.instances:
         transforms = np.ascontiguousarray(instance.transforms, dtype=np.float32)
-        result.add_instances(
+        first = result.add_instances(
             instance.mesh, transforms, np.ascontiguousarray(instance.slot_materials, dtype=np.int32)
         )
+        if instance.motion is not None:
+            set_motion(result, first, instance.motion)
     set_randoms(result, scene)
     set_textures(result, scene)
     result.set_materials(pack_table(scene.materials, MATERIAL_FIELDS))
@@ -58,8 +61,17 @@ def build_native_scene(
         camera.blade_turn,
         camera.squeeze,
     )
+    if camera.motion is not None:
+        result.set_camera_motion(np.ascontiguousarray(camera.motion, dtype=np.float64))
     result.set_filter(settings.pixel_filter, settings.filter_width)
     return result, dict(result.build(settings.threads, expected_rays(scene, settings)))
+
+
+def set_motion(result: Any, first: int, motion: Float32) -> None:
+    """Of the instances from `first` on, those that move at all."""
+    for number in np.flatnonzero((motion != motion[:, :1]).any(axis=(1, 2, 3))):
+        keys = np.ascontiguousarray(motion[number : number + 1], dtype=np.float32)
+        result.set_motion(first + int(number), keys)
 
 
 def set_textures(result: Any, scene: SceneArrays) -> None:

@@ -8,10 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from .motion import moves, still_at
 from .reference_camera import CameraRays, build_camera_rays, filter_offsets
 from .reference_passes import PassNotes
 from .reference_path import Estimate, RayCounts, World, build_world, trace_paths
@@ -23,6 +25,8 @@ BATCH = 16384
 """Paths that walk together: small enough to notice a cancel a few times a second."""
 FAR_DEPTH = 1e10
 """Depth where nothing is."""
+
+GOLDEN = 0.5 * (5.0**0.5 - 1.0)
 
 
 @dataclass(slots=True)
@@ -135,6 +139,8 @@ class Step:
 
     replicate: int
     samples: int
+    first: int = 0
+    """samples of the replicate before these"""
 
 
 def plan_steps(samples: int, pixels: int) -> Iterator[Step]:
@@ -145,7 +151,7 @@ def plan_steps(samples: int, pixels: int) -> Iterator[Step]:
         for replicate in range(REPLICATES):
             count = share_of(replicate, until) - share_of(replicate, done)
             if count > 0:
-                yield Step(replicate, count)
+                yield Step(replicate, count, share_of(replicate, done))
         done, each = until, min(2 * each, largest)
 
 
@@ -165,7 +171,7 @@ def expose(
         for r in range(REPLICATES)
     ]
     for step in plan_steps(settings.samples, pixels):
-        batch = expose_step(world, settings, step.samples, generators[step.replicate], cancelled)
+        batch = expose_step(world, settings, step, generators[step.replicate], cancelled)
         if batch is None:
             return
         yield step, batch
@@ -174,13 +180,15 @@ def expose(
 def expose_step(
     world: World,
     settings: RenderSettings,
-    samples: int,
+    step: Step,
     rng: np.random.Generator,
     cancelled: Callable[[], bool],
 ) -> Estimate | None:
-    """`samples` samples of every pixel, pixel by pixel in a row; None when cancelled."""
+    """The samples of every pixel, pixel by pixel in a row; None when cancelled."""
+    if moves(world.scene):
+        return expose_moving(world, settings, step, rng, cancelled)
     window = film_window(settings)
-    index = np.repeat(np.arange(window.width * window.height), samples)
+    index = np.repeat(np.arange(window.width * window.height), step.samples)
     parts = []
     for first in range(0, len(index), BATCH):
         if cancelled():
@@ -190,26 +198,53 @@ def expose_step(
         place = 0.5 + filter_offsets(settings.pixel_filter, settings.filter_width, even)
         camera = pixel_rays(world.scene, settings, part, place, rng.random((len(part), 2)))
         parts.append(trace_paths(world, camera, settings.max_bounces, rng, settings.passes))
-    rays = RayCounts(
-        sum(p.rays.camera for p in parts),
-        sum(p.rays.shadow for p in parts),
-        sum(p.rays.bounce for p in parts),
-    )
+    return join_estimates(parts, np.concatenate)
+
+
+Join = Callable[[list[Any]], Any]
+
+
+def join_estimates(parts: list[Estimate], join: Join) -> Estimate:
+    """Batches as one; `join` makes one array of the arrays of all."""
     return Estimate(
-        np.concatenate([p.radiance for p in parts]),
-        np.concatenate([p.hit for p in parts]),
-        np.concatenate([p.normal for p in parts]),
-        join_notes([p.notes for p in parts if p.notes is not None]),
-        rays,
+        join([p.radiance for p in parts]),
+        join([p.hit for p in parts]),
+        join([p.normal for p in parts]),
+        join_notes([p.notes for p in parts if p.notes is not None], join),
+        RayCounts(
+            sum(p.rays.camera for p in parts),
+            sum(p.rays.shadow for p in parts),
+            sum(p.rays.bounce for p in parts),
+        ),
     )
 
 
-def join_notes(parts: list[PassNotes]) -> PassNotes | None:
-    """Notes of batches one after the other; None for none."""
+def join_notes(parts: list[PassNotes], join: Join) -> PassNotes | None:
+    """Notes of batches as one; None for none."""
     if not parts:
         return None
-    values = {name: np.concatenate([part.values[name] for part in parts]) for name in parts[0].values}
-    return PassNotes(values, np.concatenate([part.shares for part in parts]), parts[0].data)
+    values = {name: join([part.values[name] for part in parts]) for name in parts[0].values}
+    return PassNotes(values, join([part.shares for part in parts]), parts[0].data)
+
+
+def expose_moving(
+    world: World,
+    settings: RenderSettings,
+    step: Step,
+    rng: np.random.Generator,
+    cancelled: Callable[[], bool],
+) -> Estimate | None:
+    """The same where something moves: each sample is one time for the whole picture, a golden section on from
+    the replicate's last."""
+    parts = []
+    start = np.random.default_rng([settings.seed % 2**64, step.replicate]).random()
+    for number in range(step.first, step.first + step.samples):
+        still = build_world(still_at(world.scene, (start + number * GOLDEN) % 1.0))
+        part = expose_step(still, settings, Step(step.replicate, 1), rng, cancelled)
+        if part is None:
+            return None
+        parts.append(part)
+    return join_estimates(parts, lambda each: np.stack(each, axis=1).reshape(-1, *each[0].shape[1:]))
 
 
 def add_estimate(film: ReferenceFilm, step: Step, batch: Estimate) -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import contextlib
 import logging
+import math
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -130,13 +131,18 @@ class TRGRenderEngine(bpy.types.RenderEngine):
         self.update_stats("TRG", "reading the scene")
         size = (self.resolution_x, self.resolution_y)
         passes = wanted_passes(depsgraph.view_layer)
-        arrays = SceneReader(passes=passes).read(scene, depsgraph, size)
+        arrays = SceneReader(passes=passes, frame_set=self._move_to).read(scene, depsgraph, size)
         modes = requested_modes(depsgraph.scene)
         settings = settings_of(scene, depsgraph.view_layer, size, modes, arrays.warnings)
         for warning in arrays.warnings:
             self.report({"WARNING"}, warning)
         seconds = {"sync": time.perf_counter() - begin}
         return Frame(self.scene_name, arrays, settings, scene.frame_current, data.filepath, seconds)
+
+    def _move_to(self, frame: float) -> None:
+        """Evaluates the scene at another time, for motion blur."""
+        whole = math.floor(frame)
+        self.frame_set(whole, frame - whole)
 
     def _render(self, frame: Frame, depsgraph: bpy.types.Depsgraph) -> None:
         """Fills the result of one view layer; Blender may ask for a part of the picture only."""

@@ -99,6 +99,9 @@ class InstanceArrays:
     """(k,) what the Object Info node calls Random, 0 to 1; None is 0"""
     identities: tuple[Identity, ...] = ()
     """one a copy; empty when no pass asks for them"""
+    motion: Float32 | None = None
+    """(k, keys, 3, 4) transforms at even steps while the shutter is open, straight lines between;
+    `transforms` are those of the middle. None: nothing moves"""
 
 
 @dataclass(slots=True)
@@ -258,6 +261,9 @@ class Camera:
     """radians"""
     squeeze: float = 1.0
     """the aperture's width over its height"""
+    motion: Float64 | None = None
+    """(keys, 3, 4) matrices at even steps while the shutter is open, straight lines between; `matrix` is
+    that of the middle. None: it stands still"""
 
 
 @dataclass(slots=True)

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from .errors import SceneError
+from .motion import MOST_KEYS
 from .passes import PASS_NAMES
 from .scene_arrays import (
     CAMERA_KINDS,
@@ -18,6 +19,7 @@ from .scene_arrays import (
     WRAP_MODES,
     Camera,
     Environment,
+    Float64,
     InstanceArrays,
     MeshArrays,
     RenderSettings,
@@ -78,6 +80,10 @@ def check_camera(camera: Camera) -> None:
         raise SceneError("the camera's matrix is not finite")
     if not np.isfinite(camera.window).all() or left == right or bottom == top:
         raise SceneError(f"the camera sees nothing: its window is {camera.window}")
+    if camera.motion is not None:
+        moved = np.asarray(camera.motion, dtype=np.float64)
+        if moved.shape[1:] != (3, 4) or not 2 <= len(moved) <= MOST_KEYS or not np.isfinite(moved).all():
+            raise SceneError(f"the camera's motion is impossible: its keys have the shape {moved.shape}")
     lens = (camera.aperture, camera.focus, camera.blade_turn, camera.squeeze)
     if not np.isfinite(lens).all() or camera.aperture < 0 or camera.focus <= 0 or camera.squeeze <= 0:
         raise SceneError(f"the camera's lens is impossible: {lens}")
@@ -138,6 +144,15 @@ def check_instance(scene: SceneArrays, instance: InstanceArrays) -> None:
         raise SceneError(f"{name}: transforms have the shape {transforms.shape}, expected (copies, 3, 4)")
     if not np.isfinite(transforms).all() or (np.linalg.det(transforms[:, :, :3]) == 0.0).any():
         raise SceneError(f"{name}: a transform is not finite or flattens space")
+    if instance.motion is not None:
+        check_motion(name, np.asarray(instance.motion, dtype=np.float64), len(transforms))
+
+
+def check_motion(name: str, motion: Float64, copies: int) -> None:
+    if motion.shape[:1] != (copies,) or motion.shape[2:] != (3, 4) or not 2 <= motion.shape[1] <= MOST_KEYS:
+        raise SceneError(f"{name}: its motion has the shape {motion.shape}, expected ({copies}, keys, 3, 4)")
+    if not np.isfinite(motion).all() or (np.linalg.det(motion[..., :3]) == 0.0).any():
+        raise SceneError(f"{name}: its motion is not finite or flattens space")
 
 
 def check_tables(scene: SceneArrays) -> None:

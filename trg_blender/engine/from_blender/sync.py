@@ -16,6 +16,7 @@ from .identities import NEEDS_IDENTITIES, read_identities, read_pass_data
 from .lights import read_light
 from .materials import MaterialTable
 from .meshes import MeshRequest, read_mesh
+from .motion import FrameSet, Motion, read_motion, shutter_of
 from .objects import Found, MeshGroup, find_objects
 from .shapes import is_unedited
 from .world import read_world
@@ -33,6 +34,8 @@ class SceneReader:
 
     passes: tuple[str, ...] = ()
     """those that will be asked for: some need names or UV maps that are else left out"""
+    frame_set: FrameSet | None = None
+    """moves the depsgraph in time, for motion blur; None: there is none"""
 
     def read(
         self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, size: tuple[int, int]
@@ -45,7 +48,25 @@ class SceneReader:
         if size[0] < 1 or size[1] < 1:
             raise SceneError(f"the picture of scene {scene.name!r} has no pixels ({size[0]} x {size[1]})")
         warnings: list[str] = []
+        shutter = shutter_of(scene, warnings) if self.frame_set is not None else None
+        if shutter is None or self.frame_set is None:
+            return self._read(scene, depsgraph, size, (None, warnings))
+        try:
+            motion = read_motion(depsgraph, shutter, self.frame_set, warnings)
+            return self._read(scene, depsgraph, size, (motion, warnings))
+        finally:
+            self.frame_set(shutter.now)
+
+    def _read(
+        self,
+        scene: bpy.types.Scene,
+        depsgraph: bpy.types.Depsgraph,
+        size: tuple[int, int],
+        beside: tuple[Motion | None, list[str]],
+    ) -> SceneArrays:
+        motion, warnings = beside
         camera = read_camera(scene, depsgraph, size, warnings)
+        camera.motion = None if motion is None else motion.camera
         found = find_objects(depsgraph, warnings)
         table = MaterialTable(warnings)
         world = read_world(scene.world, warnings)
@@ -56,7 +77,7 @@ class SceneReader:
             transparent_film=scene.render.film_transparent,
         )
         identities = read_identities(depsgraph) if NEEDS_IDENTITIES.intersection(self.passes) else []
-        _Meshes(arrays, table, self.fast, warnings, "uv" in self.passes, identities).add_all(found)
+        _Meshes(arrays, table, self.fast, warnings, "uv" in self.passes, identities, motion).add_all(found)
         for owner, row in found.lights:
             light = read_light(owner, _matrix(found.transforms[row]), warnings)
             if light is not None:
@@ -86,12 +107,18 @@ class _Meshes:
     """of every mesh, whether its materials ask for them or not"""
     identities: list[Identity]
     """by rows of Found.transforms; empty when no pass needs them"""
+    motion: Motion | None = None
     known: dict[tuple[int, int, tuple[int, ...], str], int] = field(default_factory=dict)
 
     def add_all(self, found: Found) -> None:
         for group in found.groups:
             identities = np.array([self.identities[row] for row in group.rows if self.identities], object)
             self._add(group, found.transforms[group.rows], found.randoms[group.rows], identities)
+
+    def _motion(self, group: MeshGroup, kept: np.ndarray) -> Float32 | None:
+        """Of the instances of a group that are kept."""
+        rows = [row for row, keep in zip(group.rows, kept, strict=True) if keep]
+        return None if self.motion is None else self.motion.of(rows)
 
     def _add(
         self, group: MeshGroup, transforms: Float32, randoms: Float32, identities: NDArray[np.object_]
@@ -109,6 +136,8 @@ class _Meshes:
         volume = np.abs(np.linalg.det(transforms[:, :, :3].astype(np.float64)))
         has_volume = volume > FLAT_DETERMINANT
         solid = transforms[has_volume]
+        kept = finite.copy()
+        kept[finite] = has_volume
         materials = np.array(slots, np.int32)
         if len(solid):
             self.arrays.instances.append(
@@ -119,6 +148,7 @@ class _Meshes:
                     group.origin,
                     randoms[has_volume],
                     tuple(identities[has_volume]) if len(identities) else (),
+                    self._motion(group, kept),
                 )
             )
         for row in np.flatnonzero(~has_volume):
