@@ -140,8 +140,7 @@ def relief(kind: str, strength: float) -> Any:
         tilt = np.stack([0.4 * np.sin(40 * x), 0.4 * np.cos(30 * y), np.ones_like(x)], axis=-1)
         tilt /= np.linalg.norm(tilt, axis=-1, keepdims=True)
         stored = np.concatenate([0.5 + 0.5 * tilt, np.ones((128, 128, 1))], axis=-1)
-        texture.image = image("tilt", stored, float_buffer=True)
-        texture.image.colorspace_settings.name = "Non-Color"
+        texture.image = image("tilt", stored, float_buffer=True, color_space="Non-Color")
         tree.links.new(texture.outputs["Color"], map_node.inputs["Color"])
     else:
         texture.inputs["Scale"].default_value = 8.0

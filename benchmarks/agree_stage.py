@@ -236,10 +236,13 @@ def textured(kind: str, socket: str = "Base Color", output: str = "Color", **val
     return material
 
 
-def image(name: str, pixels: Any, float_buffer: bool = False) -> Any:
+def image(name: str, pixels: Any, float_buffer: bool = False, color_space: str | None = None) -> Any:
     """A generated image of (h, w, 4) pixels, row 0 at the bottom."""
     height, width = pixels.shape[:2]
     made = bpy.data.images.new(name, width, height, alpha=True, float_buffer=float_buffer)
+    if color_space:
+        # A new colour space makes Blender generate the image anew: it comes before the pixels.
+        made.colorspace_settings.name = color_space
     made.pixels.foreach_set(np.ascontiguousarray(pixels, dtype=np.float32).ravel())
     made.update()
     return made
