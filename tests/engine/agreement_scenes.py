@@ -9,6 +9,7 @@ import numpy as np
 
 from trg_blender.engine.scene_arrays import Environment, Light, Material, RenderSettings, SceneArrays, Texture
 
+from .agreement_programs import program_scenes
 from .arrays import ball, box, checker, light, look_at, place, quad
 
 Case = tuple[SceneArrays, RenderSettings]
@@ -353,6 +354,8 @@ def cases() -> dict[str, Case]:
         # The reference pays for every light at every surface.
         scene = build()
         found[name] = (scene, replace(SETTINGS, samples=128) if len(scene.lights) > 5 else SETTINGS)
+    for name, scene in program_scenes(studio).items():
+        found[name] = (scene, SETTINGS)
     found["direct_light_only"] = (studio(MATERIALS["metal"]), replace(SETTINGS, max_bounces=0))
     found["one_bounce"] = (studio(MATERIALS["glass"]), replace(SETTINGS, max_bounces=1))
     for name, width in (("box", 3.0), ("gaussian", 2.0), ("blackman_harris", 1.5)):

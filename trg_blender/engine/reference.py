@@ -68,7 +68,7 @@ def render_reference(
 
     `progress` sees the film after each step. Raises ImportError without embreex.
     """
-    world = build_world(scene)
+    world = build_world(scene, settings.width)
     film = make_film(world, settings)
     for step, batch in expose(world, settings, cancelled or (lambda: False)):
         add_estimate(film, step, batch)

@@ -9,8 +9,8 @@ from numpy.typing import NDArray
 
 from .reference_lights import LightSample
 from .reference_math import dot
-from .reference_scene import Triangles
-from .reference_surface import MaterialTable, evaluate_material, interpolate
+from .reference_scene import Hits, Triangles
+from .reference_surface import MaterialTable, build_points, evaluate_material, interpolate
 from .scene_arrays import Float64
 
 
@@ -53,7 +53,8 @@ def sample_glow(
     distance = np.linalg.norm(offset, axis=1)
     wi = offset / np.maximum(distance, 1e-300)[:, None]
     pdf = pdf_glow(glow, triangles, index, wi, distance)
-    material = evaluate_material(table, triangles.material[index], interpolate(triangles.uvs[index], u, v))
+    hits = Hits(index, distance, u, v)
+    material = evaluate_material(table, build_points(triangles, hits, -wi))
     shown = material.emission * material.column["present"][:, None]
     radiance = shown / np.where(pdf > 0.0, pdf, np.inf)[:, None]
     return LightSample(wi, distance, radiance, pdf)

@@ -73,10 +73,10 @@ class Paths:
     index: NDArray[np.int64]
 
 
-def build_world(scene: SceneArrays) -> World:
-    """Raises ImportError without embreex."""
+def build_world(scene: SceneArrays, width: int) -> World:
+    """For a picture `width` pixels wide. Raises ImportError without embreex."""
     traced = build_traced_scene(scene)
-    materials = build_material_table(scene)
+    materials = build_material_table(scene, traced.triangles, width)
     glow = build_glow(traced.triangles, materials)
     sky = None if scene.environment is None else build_sky(scene.environment)
     return World(
@@ -110,7 +110,7 @@ def trace_paths(
         paths, hits = keep(paths, hits, hits.triangle != MISS)
         if len(paths.index) == 0:
             break
-        surface = build_surface(world.traced.triangles, world.materials, hits, -paths.rays.direction)
+        surface = build_surface(world.materials, hits, -paths.rays.direction)
         if segment == 0:
             estimate.hit[paths.index] = True
             estimate.normal[paths.index] = surface.ns

@@ -7,14 +7,14 @@ that triangle in float64, so that only the choice of the triangle rests on singl
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .reference_math import dot, normalize
-from .reference_shapes import Shape, meet_shape, place_shapes
+from .reference_shapes import Shape, each_copy, meet_shape, place_shapes
 from .scene_arrays import Float64, InstanceArrays, MeshArrays, SceneArrays
 
 MISS = -1
@@ -38,6 +38,10 @@ class Triangles:
     """(n,) index into SceneArrays.materials"""
     area: Float64
     """(n,)"""
+    copy: NDArray[np.int64]
+    """(n,) which of the scene's copies of meshes, counted over all instances, it belongs to"""
+    face: NDArray[np.int64]
+    """(n,) its number in its mesh"""
     shapes: tuple[Shape, ...] = ()
     """what the last rows stand for: shape k is row `first_shape` + k"""
 
@@ -139,6 +143,8 @@ def with_shapes(triangles: Triangles, shapes: tuple[Shape, ...]) -> Triangles:
         np.zeros((count, 3, 2)),
         np.array([shape.material for shape in shapes], dtype=np.int64),
         np.zeros(count),
+        np.array([shape.copy for shape in shapes], dtype=np.int64),
+        np.zeros(count, np.int64),
     )
     return replace(join_triangles([triangles, rows]), shapes=shapes)
 
@@ -152,10 +158,9 @@ def build_traced_scene(scene: SceneArrays) -> TracedScene:
     from embreex.rtcore_scene import EmbreeScene
 
     parts = [
-        bake_instance(scene.meshes[one.mesh], one, transform)
-        for one in scene.instances
+        bake_instance(scene.meshes[one.mesh], one, transform, copy)
+        for copy, (one, transform) in enumerate(each_copy(scene))
         if scene.meshes[one.mesh].shape == "triangles"
-        for transform in np.asarray(one.transforms, dtype=np.float64)
     ]
     triangles = join_triangles(parts)
     shapes = tuple(place_shapes(scene))
@@ -167,8 +172,8 @@ def build_traced_scene(scene: SceneArrays) -> TracedScene:
     return TracedScene(with_shapes(triangles, shapes), embree)
 
 
-def bake_instance(mesh: MeshArrays, instance: InstanceArrays, transform: Float64) -> Triangles:
-    """The world triangles of one copy; `transform` is (3, 4) object to world."""
+def bake_instance(mesh: MeshArrays, instance: InstanceArrays, transform: Float64, copy: int) -> Triangles:
+    """The world triangles of copy number `copy`; `transform` is (3, 4) object to world."""
     linear = transform[:, :3]
     world = np.asarray(mesh.vertices, dtype=np.float64) @ linear.T + transform[:, 3]
     corners = world[mesh.triangles].reshape(-1, 3, 3)
@@ -189,21 +194,23 @@ def bake_instance(mesh: MeshArrays, instance: InstanceArrays, transform: Float64
     area = 0.5 * np.linalg.norm(cross, axis=1)
     with np.errstate(invalid="ignore"):
         keep = np.isfinite(corners).all(axis=(1, 2)) & (area > 0.0)
-    return Triangles(corners[keep], outside[keep], normals[keep], uvs[keep], material[keep], area[keep])
+    face = np.flatnonzero(keep)
+    return Triangles(
+        corners[keep],
+        outside[keep],
+        normals[keep],
+        uvs[keep],
+        material[keep],
+        area[keep],
+        np.full(len(face), copy, np.int64),
+        face,
+    )
 
 
 def join_triangles(parts: list[Triangles]) -> Triangles:
     """One after the other; no part gives empty arrays."""
     if not parts:
-        zero = np.zeros((0, 3, 3))
-        return Triangles(
-            zero, np.zeros((0, 3)), zero, np.zeros((0, 3, 2)), np.zeros(0, np.int64), np.zeros(0)
-        )
-    return Triangles(
-        np.concatenate([part.corners for part in parts]),
-        np.concatenate([part.outside for part in parts]),
-        np.concatenate([part.normals for part in parts]),
-        np.concatenate([part.uvs for part in parts]),
-        np.concatenate([part.material for part in parts]),
-        np.concatenate([part.area for part in parts]),
-    )
+        zero, none = np.zeros((0, 3, 3)), np.zeros(0, np.int64)
+        return Triangles(zero, np.zeros((0, 3)), zero, np.zeros((0, 3, 2)), none, np.zeros(0), none, none)
+    names = [one.name for one in fields(Triangles) if one.name != "shapes"]
+    return Triangles(*(np.concatenate([getattr(part, name) for part in parts]) for name in names))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .reference_math import dot, normalize
-from .scene_arrays import Float64, SceneArrays
+from .scene_arrays import Float64, InstanceArrays, SceneArrays
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +23,8 @@ class Shape:
     inverse: Float64
     """of `linear`"""
     material: int
+    copy: int
+    """which of the scene's copies of meshes it is"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,15 +44,20 @@ class ShapePoints:
     """(n, 3) unit normals"""
 
 
-def place_shapes(scene: SceneArrays) -> Iterator[Shape]:
+def each_copy(scene: SceneArrays) -> Iterator[tuple[InstanceArrays, Float64]]:
+    """Every copy of a mesh with its (3, 4) object to world, over all instances."""
     for one in scene.instances:
-        kind = scene.meshes[one.mesh].shape
-        if kind == "triangles":
-            continue
         for transform in np.asarray(one.transforms, dtype=np.float64):
+            yield one, transform
+
+
+def place_shapes(scene: SceneArrays) -> Iterator[Shape]:
+    for copy, (one, transform) in enumerate(each_copy(scene)):
+        kind = scene.meshes[one.mesh].shape
+        if kind != "triangles":
             linear = transform[:, :3]
-            inverse = np.linalg.inv(linear)
-            yield Shape(kind, linear, transform[:, 3], inverse, int(one.slot_materials[0]))
+            material = int(one.slot_materials[0])
+            yield Shape(kind, linear, transform[:, 3], np.linalg.inv(linear), material, copy)
 
 
 def meet_shape(shape: Shape, origin: Float64, direction: Float64, far: Float64) -> ShapeHits:

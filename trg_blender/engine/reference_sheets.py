@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .reference_scene import MISS, Hits, Rays, TracedScene
-from .reference_surface import MaterialTable, build_surface, textured_number
+from .reference_surface import MaterialTable, build_surface
 from .scene_arrays import Float64
 
 MOST_SHEETS = 4096
@@ -18,11 +18,9 @@ def has_sheets(table: MaterialTable) -> bool:
     return bool(np.any((table.columns["alpha"] < 1.0) | (table.columns["alpha_texture"] >= 0)))
 
 
-def sheet_values(
-    traced: TracedScene, table: MaterialTable, hits: Hits, direction: Float64
-) -> tuple[Float64, Float64]:
+def sheet_values(table: MaterialTable, hits: Hits, direction: Float64) -> tuple[Float64, Float64]:
     """At hits that are no misses: how much is there (n,), and the colour (n, 3) of what passes."""
-    material = build_surface(traced.triangles, table, hits, -direction).material
+    material = build_surface(table, hits, -direction).material
     return material.column["present"], material.color("through")
 
 
@@ -36,7 +34,7 @@ def pass_sheets(
         if len(open_rows) == 0:
             break
         here = pick(hits, open_rows)
-        alpha, through = sheet_values(traced, table, here, rays.direction[open_rows])
+        alpha, through = sheet_values(table, here, rays.direction[open_rows])
         passes = rng.random(len(open_rows)) >= alpha
         open_rows = open_rows[passes]
         tint[open_rows] *= through[passes]
@@ -53,7 +51,7 @@ def transmittance(traced: TracedScene, table: MaterialTable, rays: Rays) -> Floa
     for _ in range(MOST_SHEETS):
         if len(rows) == 0:
             return light
-        alpha, through = sheet_values(traced, table, pick(hits, rows), rays.direction[rows])
+        alpha, through = sheet_values(table, pick(hits, rows), rays.direction[rows])
         light[rows] *= (1.0 - alpha)[:, None] * through
         rows = rows[np.any(light[rows] > 0.0, axis=1)]
         hits = beyond(traced, rays, hits, rows)

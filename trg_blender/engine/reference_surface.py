@@ -7,10 +7,12 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from .errors import SceneError
 from .reference_energy import EnergyTables
-from .reference_math import dot, normalize
 from .reference_ggx import IDEAL_ALPHA as IDEAL_ALPHA
+from .reference_math import dot, normalize
+from .reference_point_ops import PointMachine
+from .reference_points import Points, PointSpace, build_copies
+from .reference_programs import Programs
 from .reference_scene import Hits, Triangles
 from .reference_shapes import shape_points
 from .reference_textures import Picture, look_up, prepare_image
@@ -22,11 +24,12 @@ GRAZING = 1e-4
 
 @dataclass(frozen=True, slots=True)
 class MaterialTable:
-    """The material rows as columns, and the images they look into."""
+    """The material rows as columns, and the images and programs they ask."""
 
     columns: dict[str, Float64]
-    scene: SceneArrays
+    space: PointSpace
     images: list[Picture]
+    programs: Programs
     energy: EnergyTables = field(default_factory=EnergyTables)
 
 
@@ -76,29 +79,28 @@ class Surface:
         return self.position + side[:, None] * self.ng
 
 
-def build_material_table(scene: SceneArrays) -> MaterialTable:
-    """Raises SceneError for texture programs and further UV maps, which this renderer has not."""
-    if any(texture.program >= 0 or texture.uv_map > 0 for texture in scene.textures):
-        raise SceneError(
-            "the reference renderer (device embree) shows plain images at the mesh's own UV map alone: "
-            "render node textures on the device cpu"
-        )
+def build_material_table(scene: SceneArrays, triangles: Triangles, width: int) -> MaterialTable:
+    """For a picture `width` pixels wide."""
     rows = pack_table(scene.materials, MATERIAL_FIELDS).astype(np.float64)
     columns = {name: rows[:, column] for column, name in enumerate(MATERIAL_FIELDS)}
-    return MaterialTable(columns, scene, [prepare_image(image) for image in scene.images])
+    left, right = scene.camera.window[:2]
+    space = PointSpace(scene, triangles, build_copies(scene), abs(right - left) / width)
+    images = [prepare_image(image) for image in scene.images]
+    return MaterialTable(columns, space, images, Programs(scene.programs))
 
 
-def evaluate_material(table: MaterialTable, index: NDArray[np.int64], uv: Float64) -> Material:
-    """Rows `index` (n,) of the table at the texture places `uv` (n, 2)."""
+def evaluate_material(table: MaterialTable, points: Points) -> Material:
+    """The material at each point."""
+    index = table.space.triangles.material[points.triangle]
     column = {name: values[index] for name, values in table.columns.items()}
     base = np.stack([column["base_r"], column["base_g"], column["base_b"]], axis=1)
     emission = np.stack([column["emission_r"], column["emission_g"], column["emission_b"]], axis=1)
     # A float image may hold anything; what a surface reflects lies between nothing and all.
-    base = np.clip(textured(table, column["base_texture"], uv, base), 0.0, 1.0)
-    emission = emission * textured(table, column["emission_texture"], uv, np.ones_like(emission))
-    roughness = textured_number(table, "roughness", column, uv)
-    metallic = textured_number(table, "metallic", column, uv)
-    column["present"] = textured_number(table, "alpha", column, uv)
+    base = np.clip(textured(table, column["base_texture"], points, base), 0.0, 1.0)
+    emission = emission * textured(table, column["emission_texture"], points, np.ones_like(emission))
+    roughness = textured_number(table, "roughness", column, points)
+    metallic = textured_number(table, "metallic", column, points)
+    column["present"] = textured_number(table, "alpha", column, points)
     return Material(
         base,
         metallic,
@@ -112,20 +114,29 @@ def evaluate_material(table: MaterialTable, index: NDArray[np.int64], uv: Float6
     )
 
 
-def textured_number(table: MaterialTable, name: str, column: dict[str, Float64], uv: Float64) -> Float64:
+def textured_number(table: MaterialTable, name: str, column: dict[str, Float64], points: Points) -> Float64:
     """A share between 0 and 1; a texture's red channel replaces it."""
     plain = np.repeat(column[name][:, None], 3, axis=1)
-    return np.clip(textured(table, column[f"{name}_texture"], uv, plain)[:, 0], 0.0, 1.0)
+    return np.clip(textured(table, column[f"{name}_texture"], points, plain)[:, 0], 0.0, 1.0)
 
 
-def textured(table: MaterialTable, textures: Float64, uv: Float64, plain: Float64) -> Float64:
+def textured(table: MaterialTable, textures: Float64, points: Points, plain: Float64) -> Float64:
     """`plain` (n, 3), replaced by the texture's value in the rows where `textures` names one."""
     value = plain.copy()
     for number in np.unique(textures[textures >= 0]).astype(int):
         rows = textures == number
-        texture = table.scene.textures[number]
-        value[rows] = look_up(table.images[texture.image], texture, uv[rows])
+        value[rows] = texture_value(table, number, points.take(rows))
     return value
+
+
+def texture_value(table: MaterialTable, number: int, points: Points) -> Float64:
+    """(n, 3) of texture `number` at the points."""
+    texture = table.space.scene.textures[number]
+    if texture.program >= 0:
+        machine = PointMachine(table.space, table.images, points)
+        return table.programs.run(texture.program, len(points.b1), machine.ops())
+    uv = table.space.attribute(points, texture.uv_map)[:, :2]
+    return look_up(table.images[texture.image], texture, uv)
 
 
 def interpolate(corners: Float64, u: Float64, v: Float64) -> Float64:
@@ -133,13 +144,13 @@ def interpolate(corners: Float64, u: Float64, v: Float64) -> Float64:
     return (1.0 - u - v)[:, None] * corners[:, 0] + u[:, None] * corners[:, 1] + v[:, None] * corners[:, 2]
 
 
-def build_surface(triangles: Triangles, table: MaterialTable, hits: Hits, wo: Float64) -> Surface:
-    """The surface at `hits`, which must all have hit."""
-    index = hits.triangle
-    position = interpolate(triangles.corners[index], hits.u, hits.v)
+def build_points(triangles: Triangles, hits: Hits, wo: Float64) -> Points:
+    """The places at `hits`, which must all have hit."""
+    index, b1, b2 = hits.triangle, hits.u, hits.v
+    position = interpolate(triangles.corners[index], b1, b2)
     outside_normal = triangles.outside[index]
-    smooth_normal = interpolate(triangles.normals[index], hits.u, hits.v)
-    uv = interpolate(triangles.uvs[index], hits.u, hits.v)
+    smooth_normal = interpolate(triangles.normals[index], b1, b2)
+    uv = interpolate(triangles.uvs[index], b1, b2)
     for row in np.unique(index[index >= triangles.first_shape]):
         rows = index == row
         shape = triangles.shapes[row - triangles.first_shape]
@@ -147,14 +158,31 @@ def build_surface(triangles: Triangles, table: MaterialTable, hits: Hits, wo: Fl
         position[rows] = points.position
         outside_normal[rows] = smooth_normal[rows] = points.outside
         uv[rows] = np.stack([hits.u[rows], hits.v[rows]], axis=1)
+    on_shape = index >= triangles.first_shape
+    b1, b2 = np.where(on_shape, 0.0, b1), np.where(on_shape, 0.0, b2)
     outside = dot(wo, outside_normal) >= 0.0
     turn = np.where(outside, 1.0, -1.0)[:, None]
-    ng = outside_normal * turn
-    ns = normalize(smooth_normal) * turn
-    ns = np.where((dot(wo, ns) > GRAZING)[:, None], ns, ng)
-    material = evaluate_material(table, triangles.material[index], uv)
+    flat, normal = outside_normal * turn, normalize(smooth_normal) * turn
+    normal = np.where(np.any(normal != 0.0, axis=1)[:, None], normal, flat)
+    return Points(index, b1, b2, uv, position, normal, flat, wo, outside)
+
+
+def bent_normals(table: MaterialTable, points: Points) -> Float64:
+    """(n, 3) shading normals: those that materials ask for where the viewer sees them, else the smooth
+    ones, else the geometric ones."""
+    ns = np.where((dot(points.wo, points.normal) > GRAZING)[:, None], points.normal, points.flat)
+    wanted = table.columns["normal_texture"][table.space.triangles.material[points.triangle]]
+    bent = normalize(textured(table, wanted, points, np.zeros_like(ns)))
+    return np.where((dot(points.wo, bent) > GRAZING)[:, None], bent, ns)
+
+
+def build_surface(table: MaterialTable, hits: Hits, wo: Float64) -> Surface:
+    """The surface at `hits`, which must all have hit."""
+    triangles = table.space.triangles
+    points = build_points(triangles, hits, wo)
+    ns, material = bent_normals(table, points), evaluate_material(table, points)
     # Embree works in float32: its error grows with the coordinates and with the size of the triangle.
-    corners = triangles.corners[index]
+    corners = triangles.corners[hits.triangle]
     edge = np.max(np.abs(corners[:, 1:] - corners[:, :1]), axis=(1, 2))
-    epsilon = 1e-7 + 2e-6 * np.max(np.abs(position), axis=1) + 4e-7 * edge
-    return Surface(position, wo, ng, ns, outside, material, epsilon)
+    epsilon = 1e-7 + 2e-6 * np.max(np.abs(points.position), axis=1) + 4e-7 * edge
+    return Surface(points.position, wo, points.flat, ns, points.outside, material, epsilon)

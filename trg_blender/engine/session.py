@@ -134,7 +134,7 @@ def start_reference(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
     from .reference_path import build_world
 
     begin = time.perf_counter()
-    world = build_world(scene)
+    world = build_world(scene, settings.width)
     baked = sum(
         len(one.transforms) * len(scene.meshes[one.mesh].triangles)
         for one in scene.instances
