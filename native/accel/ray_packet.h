@@ -1,10 +1,11 @@
 /// Sixteen rays that go much the same way, traced together.
 ///
-/// The tree is walked once for all of them, along the beam that holds them; at the leaves each ray
-/// is tested by itself, with the same exact decisions as a ray alone.
+/// The tree is walked once for all of them: the beam that holds them discards children, then each
+/// ray is tested by itself; triangles are met with the same exact decisions as by a ray alone.
 #pragma once
 
 #include "accel/walk_tree.h"
+#include "accel/wide16.h"
 
 namespace trg::TRG_ISA {
 
@@ -17,13 +18,30 @@ struct alignas(64) RayPacket {
     float origin[3][kPacketRays], direction[3][kPacketRays];
     float line[3][kPacketRays], moment[3][kPacketRays];
     float t_min[kPacketRays], t_max[kPacketRays];
+    // Distances to planes, as QuickBoxTest has them.
+    float inverse[3][kPacketRays], far_inverse[3][kPacketRays];
+    float near_shift[3][kPacketRays], far_shift[3][kPacketRays];
     float centre[3];
     float line_low[3], line_high[3];      // of `line`
     float moment_low[3], moment_high[3];  // of `moment`
     float spread;                         // largest component of an origin - centre
     float line_length;                    // largest |x| + |y| + |z| of `line`
     RayBounds bounds;
+    uint32_t ready;  // bits of the rays in `alone`
+    TracedRay alone[kPacketRays];
 };
+
+/// Ray k as rays alone are; made when first asked for.
+TRG_INLINE_FN const TracedRay& lane_ray(RayPacket& packet, int k) {
+    if (!((packet.ready >> k) & 1)) {
+        packet.ready |= 1u << k;
+        packet.alone[k] =
+            prepare_ray({packet.origin[0][k], packet.origin[1][k], packet.origin[2][k]},
+                        {packet.direction[0][k], packet.direction[1][k], packet.direction[2][k]},
+                        packet.t_min[k]);
+    }
+    return packet.alone[k];
+}
 
 /// The least and the largest of the eight numbers of each ray, in the order of Ray.
 struct RayExtent {
@@ -59,25 +77,31 @@ struct Coherence {
     float origin = 1.0f / 24;
 };
 
-/// Whether rays of this extent go the same way along each axis, from about the same place.
-TRG_FN bool is_coherent(const RayExtent& extent, float reach) {
-    const Coherence most;
+/// Whether rays of this extent go the same way along each axis, with ordinary numbers.
+TRG_FN bool has_one_octant(const RayExtent& extent) {
     constexpr float kLargest = 1e12f, kFarthest = 1e15f;
-    if (!extent.finite) return false;
-    bool same = true;
-    float longest = 0, widest = 0, apart = 0;
+    bool same = extent.finite;
     for (int axis = 0; axis < 3; ++axis) {
         const float low = extent.low[4 + axis], high = extent.high[4 + axis];
         const float nearest = low > 0 ? low : -high, farthest = low > 0 ? high : -low;
-        same = same & ((low > 0) | (high < 0)) & (nearest > 1 / kLargest) & (farthest < kLargest);
-        longest = nearest > longest ? nearest : longest;
-        widest = high - low > widest ? high - low : widest;
-        const float size = extent.high[axis] - extent.low[axis];
-        apart = size > apart ? size : apart;
-        same = same & (std::fabs(extent.low[axis]) < kFarthest) &
+        same = same & ((low > 0) | (high < 0)) & (nearest > 1 / kLargest) & (farthest < kLargest) &
+               (std::fabs(extent.low[axis]) < kFarthest) &
                (std::fabs(extent.high[axis]) < kFarthest);
     }
-    return same & (widest <= most.slope * longest) & (apart <= most.origin * reach);
+    return same;
+}
+
+/// Whether rays of this extent go about the same way, from about the same place.
+TRG_FN bool is_narrow(const RayExtent& extent, float reach) {
+    const Coherence most;
+    float longest = 0, widest = 0, apart = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+        const float low = extent.low[4 + axis], high = extent.high[4 + axis];
+        longest = std::fmax(longest, std::fmax(std::fabs(low), std::fabs(high)));
+        widest = std::fmax(widest, high - low);
+        apart = std::fmax(apart, extent.high[axis] - extent.low[axis]);
+    }
+    return (widest <= most.slope * longest) & (apart <= most.origin * reach);
 }
 
 /// The range of distances at which the rays can cross planes: of each axis the origins and inverse
@@ -138,10 +162,26 @@ TRG_FN void fill_lines(RayPacket& packet, const RayExtent& extent) {
     }
 }
 
-/// Makes a packet of rays[0..kPacketRays); false when they are better traced one by one.
+/// Readies the test of each ray against boxes.
+TRG_FN void fill_box_test(RayPacket& packet) {
+    constexpr float kSlack = 4 * 0x1p-24f;
+    for (int axis = 0; axis < 3; ++axis)
+        for (int k = 0; k < kPacketRays; ++k) {
+            const float inverse = 1.0f / packet.direction[axis][k];
+            const float shift = packet.origin[axis][k] * inverse;
+            const float slack = std::fabs(shift) * kSlack;
+            packet.inverse[axis][k] = inverse;
+            packet.far_inverse[axis][k] = inverse * kFarFactor;
+            packet.near_shift[axis][k] = -shift - slack;
+            packet.far_shift[axis][k] = (-shift + slack) * kFarFactor;
+        }
+}
+
+/// Makes a packet of rays[0..kPacketRays), each of which is traceable; false when it cannot be one:
+/// or when they are too far apart for a world as large as `reach`.
 TRG_FN bool make_packet(const Ray* rays, float reach, RayPacket& packet) {
     const RayExtent extent = extent_of(rays);
-    if (!is_coherent(extent, reach)) return false;
+    if (!has_one_octant(extent) || !is_narrow(extent, reach)) return false;
     bool open = true;
     for (int k = 0; k < kPacketRays; ++k) {
         const Ray& ray = rays[k];
@@ -156,8 +196,10 @@ TRG_FN bool make_packet(const Ray* rays, float reach, RayPacket& packet) {
         open = open & (ray.t_max > packet.t_min[k]);
     }
     if (!open) return false;
+    packet.ready = 0;
     packet.bounds = bounds_of(extent);
     if (!QuickBoxTest::fits(packet.bounds)) return false;
+    fill_box_test(packet);
     fill_lines(packet, extent);
     return true;
 }

@@ -11,20 +11,20 @@
 
 namespace trg::TRG_ISA {
 
-/// The best hits of a packet so far. `limit` is the farthest that any ray still looks.
+/// The best hits of a packet so far, or which of its rays have met anything.
 struct PacketSearch {
-    alignas(64) float t[kPacketRays];
+    alignas(64) float t[kPacketRays];  // how far each ray looks
     Search ray[kPacketRays];
-    float limit;
+    uint32_t live;   // rays that still look
+    float farthest;  // how far boxes may lie: the largest t, raised by kFarFactor
 };
 
-TRG_FN void start_search(const RayPacket& packet, PacketSearch& search) {
-    search.limit = 0;
-    for (int k = 0; k < kPacketRays; ++k) {
-        search.t[k] = packet.t_max[k];
-        search.ray[k] = start_search(packet.t_max[k]);
-        search.limit = std::fmax(search.limit, search.ray[k].limit);
-    }
+/// Sets `farthest` again after some t became smaller.
+TRG_FN void shorten(PacketSearch& search) {
+    float farthest = search.t[0];
+    for (int k = 1; k < kPacketRays; ++k)
+        farthest = search.t[k] > farthest ? search.t[k] : farthest;
+    search.farthest = farthest * kFarFactor;
 }
 
 TRG_FN ExactRay exact_ray(const RayPacket& packet, int k) {
@@ -189,15 +189,17 @@ TRG_FN uint32_t meet_rays(const LaneOf& triangle, const GroupMasks& rays, const 
            mask_less_equal(at, load8(before + first));
 }
 
+/// Tests those rays of a packet whose bits are set in `among`.
 template <bool kOneOrigin>
-TRG_FN void test_closest(const CornerBlock& block, const RayPacket& packet, PacketSearch& search) {
+TRG_FN void test_closest(const CornerBlock& block, const RayPacket& packet, uint32_t among,
+                         PacketSearch& search) {
     BlockEdges edges;
-    bool changed = false;
     for (uint32_t lanes = relate_block<kOneOrigin>(block, packet, edges); lanes;
          lanes &= lanes - 1) {
         const int lane = lowest_bit(lanes);
         for (int group = 0; group < kPacketGroups; ++group) {
-            const GroupMasks rays = filter_rays<kOneOrigin>(edges, lane, packet, group);
+            GroupMasks rays = filter_rays<kOneOrigin>(edges, lane, packet, group);
+            rays.possible &= among >> (group * kWidth);
             if (!rays.possible) continue;
             GroupDistances distances;
             const float (&t)[kWidth] = distances.t;
@@ -207,33 +209,28 @@ TRG_FN void test_closest(const CornerBlock& block, const RayPacket& packet, Pack
                 if (!improves(search.ray[ray], t[k], block.prim[lane])) continue;
                 record_hit(search.ray[ray], t[k], &block, lane, block.prim[lane]);
                 search.t[ray] = t[k];
-                changed = true;
             }
         }
     }
-    if (!changed) return;
-    float farthest = search.t[0];
-    for (int k = 1; k < kPacketRays; ++k)
-        farthest = search.t[k] > farthest ? search.t[k] : farthest;
-    search.limit = farthest * kFarFactor;
 }
 
-/// Sets the bits of `hidden` whose rays meet a triangle of the block.
+/// Takes those rays from the living that meet a triangle of the block.
 template <bool kOneOrigin>
-TRG_FN void test_any(const CornerBlock& block, const RayPacket& packet, uint32_t* hidden) {
+TRG_FN void test_any(const CornerBlock& block, const RayPacket& packet, uint32_t among,
+                     PacketSearch& search) {
     BlockEdges edges;
     for (uint32_t lanes = relate_block<kOneOrigin>(block, packet, edges); lanes;
          lanes &= lanes - 1) {
         const int lane = lowest_bit(lanes);
         for (int group = 0; group < kPacketGroups; ++group) {
             GroupMasks rays = filter_rays<kOneOrigin>(edges, lane, packet, group);
-            rays.possible &= ~(*hidden >> (group * kWidth)) & ((1u << kWidth) - 1);
+            rays.possible &= (among & search.live) >> (group * kWidth);
             if (!rays.possible) continue;
             GroupDistances distances;
             const float (&t)[kWidth] = distances.t;
-            const uint32_t met = meet_rays({block, lane}, rays, packet, packet.t_max, distances) &
-                                 mask_less(load8(t), load8(packet.t_max + group * kWidth));
-            *hidden |= met << (group * kWidth);
+            const uint32_t met = meet_rays({block, lane}, rays, packet, search.t, distances) &
+                                 mask_less(load8(t), load8(search.t + group * kWidth));
+            search.live &= ~(met << (group * kWidth));
         }
     }
 }

@@ -30,10 +30,10 @@ struct PacketTrials {
     bool go() const { return soup && failures_left > 0; }
 };
 
-/// Ends the search of one ray of a packet that parted.
-TRG_FN void finish_search(const Ray& ray, const Soup& soup, Search& search) {
-    const TracedRay traced = prepare_ray(ray.origin, ray.direction, ray.t_min > 0 ? ray.t_min : 0);
-    search_soup<CornerBlock>(soup, traced, search);
+TRG_FN void start_search(const RayPacket& packet, PacketSearch& search) {
+    search.live = kWholePacket;
+    for (int k = 0; k < kPacketRays; ++k) search.t[k] = packet.t_max[k];
+    shorten(search);
 }
 
 /// Traces kPacketRays rays together; false, with nothing done, when they do not go together.
@@ -44,27 +44,25 @@ TRG_FN bool closest_hits(const WorldIndex& index, PacketTrials& trials, const Ra
     if (!make_packet(rays, reach_of(soup.bounds), packet)) return false;
     PacketSearch search;
     start_search(packet, search);
-    for (Search& one : search.ray) one.current = index.placements.data();
-    if (!search_soup(soup, packet, search)) {
-        --trials.failures_left;
-        for (int k = 0; k < kPacketRays; ++k) finish_search(rays[k], soup, search.ray[k]);
+    for (int k = 0; k < kPacketRays; ++k) {
+        search.ray[k] = start_search(packet.t_max[k]);
+        search.ray[k].current = index.placements.data();
     }
+    search_soup<false>(soup, packet, kWholePacket, search);
     for (int k = 0; k < kPacketRays; ++k)
         hits[k] = resolve_hit(search.ray[k], exact_ray(packet, k));
     return true;
 }
 
 /// Likewise for any hits.
-TRG_FN bool are_hidden(const WorldIndex& index, PacketTrials& trials, const Ray* rays,
-                       uint8_t* hidden) {
+TRG_FN bool are_hidden(PacketTrials& trials, const Ray* rays, uint8_t* hidden) {
     RayPacket packet;
     const Soup& soup = *trials.soup;
     if (!make_packet(rays, reach_of(soup.bounds), packet)) return false;
-    uint32_t mask = 0;
-    const bool all = hide_soup(soup, packet, &mask);
-    if (!all) --trials.failures_left;
-    for (int k = 0; k < kPacketRays; ++k)
-        hidden[k] = ((mask >> k) & 1) || (!all && is_hidden<CornerBlock>(index, rays[k]));
+    PacketSearch search;
+    start_search(packet, search);
+    search_soup<true>(soup, packet, kWholePacket, search);
+    for (int k = 0; k < kPacketRays; ++k) hidden[k] = !((search.live >> k) & 1);
     return true;
 }
 
@@ -103,7 +101,7 @@ struct AnyQuery {
 
     void alone(int k) const { hidden[k] = is_hidden<Block>(index, rays[k]); }
     bool together(PacketTrials& trials, int k) const {
-        return are_hidden(index, trials, rays + k, hidden + k);
+        return are_hidden(trials, rays + k, hidden + k);
     }
     bool test(const Placement& placement, StreamRay<Block>& ray) const {
         return placement_hides<Block>(placement, ray.world, ray.search.t);

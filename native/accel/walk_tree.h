@@ -205,11 +205,20 @@ TRG_INLINE_FN NodeRef push_all_but_one(const WideNode& node, const ChildHits& hi
     return stack.ref[--stack.size];
 }
 
+/// A tree, or the part of it below `root`.
+struct Subtree {
+    const WideNode* nodes;
+    NodeRef root;
+};
+
+TRG_FN Subtree whole_of(const Tree& tree) {
+    return {tree.nodes.data(), tree.root};
+}
+
 template <bool kSorted, class BoxTest, class Visit>
-TRG_FN bool walk_nodes(const Tree& tree, const RayBounds& ray, const float* limit,
+TRG_FN bool walk_nodes(const Subtree& tree, const NodeTest<BoxTest>& test, const float* limit,
                        const Visit& visit) {
-    const NodeTest<BoxTest> test(ray);
-    const WideNode* nodes = tree.nodes.data();
+    const WideNode* nodes = tree.nodes;
     WalkStack stack;
     NodeRef ref = tree.root;
     for (;;) {
@@ -243,8 +252,8 @@ TRG_FN bool walk_tree(const Tree& tree, const TracedRay& ray, const float* limit
     if (tree.root == kNoNode) return false;
     const RayBounds bounds = bounds_of(ray);
     if (QuickBoxTest::fits(bounds))
-        return walk_nodes<kSorted, QuickBoxTest>(tree, bounds, limit, visit);
-    return walk_nodes<kSorted, CarefulBoxTest>(tree, bounds, limit, visit);
+        return walk_nodes<kSorted>(whole_of(tree), NodeTest<QuickBoxTest>(bounds), limit, visit);
+    return walk_nodes<kSorted>(whole_of(tree), NodeTest<CarefulBoxTest>(bounds), limit, visit);
 }
 
 }  // namespace trg::TRG_ISA
