@@ -23,13 +23,6 @@ TRG_FN Hit resolve_hit(const Search& search, const ExactRay& ray) {
     return {search.t, at.u, at.v, origin.triangle, origin.instance};
 }
 
-/// Packets of one batch: after some that parted, the rest of the rays go alone.
-struct PacketTrials {
-    const Soup* soup;
-    int failures_left = 2;
-    bool go() const { return soup && failures_left > 0; }
-};
-
 TRG_FN void start_search(const RayPacket& packet, PacketSearch& search) {
     search.live = kWholePacket;
     for (int k = 0; k < kPacketRays; ++k) search.t[k] = packet.t_max[k];
@@ -37,10 +30,8 @@ TRG_FN void start_search(const RayPacket& packet, PacketSearch& search) {
 }
 
 /// Traces kPacketRays rays together; false, with nothing done, when they do not go together.
-TRG_FN bool closest_hits(const WorldIndex& index, PacketTrials& trials, const Ray* rays,
-                         Hit* hits) {
+TRG_FN bool closest_hits(const WorldIndex& index, const Soup& soup, const Ray* rays, Hit* hits) {
     RayPacket packet;
-    const Soup& soup = *trials.soup;
     if (!make_packet(rays, reach_of(soup.bounds), packet)) return false;
     PacketSearch search;
     start_search(packet, search);
@@ -55,9 +46,8 @@ TRG_FN bool closest_hits(const WorldIndex& index, PacketTrials& trials, const Ra
 }
 
 /// Likewise for any hits.
-TRG_FN bool are_hidden(PacketTrials& trials, const Ray* rays, uint8_t* hidden) {
+TRG_FN bool are_hidden(const Soup& soup, const Ray* rays, uint8_t* hidden) {
     RayPacket packet;
-    const Soup& soup = *trials.soup;
     if (!make_packet(rays, reach_of(soup.bounds), packet)) return false;
     PacketSearch search;
     start_search(packet, search);
@@ -75,8 +65,8 @@ struct ClosestQuery {
     Hit* hits;
 
     void alone(int k) const { hits[k] = closest_hit<Block>(index, rays[k]); }
-    bool together(PacketTrials& trials, int k) const {
-        return closest_hits(index, trials, rays + k, hits + k);
+    bool together(const Soup& soup, int k) const {
+        return closest_hits(index, soup, rays + k, hits + k);
     }
     bool test(const Placement& placement, StreamRay<Block>& ray) const {
         search_placement<Block>(placement, ray.world, ray.search);
@@ -100,9 +90,7 @@ struct AnyQuery {
     uint8_t* hidden;
 
     void alone(int k) const { hidden[k] = is_hidden<Block>(index, rays[k]); }
-    bool together(PacketTrials& trials, int k) const {
-        return are_hidden(trials, rays + k, hidden + k);
-    }
+    bool together(const Soup& soup, int k) const { return are_hidden(soup, rays + k, hidden + k); }
     bool test(const Placement& placement, StreamRay<Block>& ray) const {
         return placement_hides<Block>(placement, ray.world, ray.search.t);
     }
@@ -115,13 +103,13 @@ struct AnyQuery {
 /// Packets where rays go together; the others in turns where the world is large, else one by one.
 template <class Block, class Query>
 TRG_FN void trace_batch(const Query& query, int count) {
-    PacketTrials trials{packet_soup(query.index)};
+    const Soup* const soup = packet_soup(query.index);
     const bool streams = takes_streams(query.index);
     int waiting[kMostWaiting];
     int waiters = 0;
     for (int k = 0; k < count;) {
         const int end = count - k < kPacketRays ? count : k + kPacketRays;
-        if (trials.go() && end - k == kPacketRays && query.together(trials, k)) {
+        if (soup && end - k == kPacketRays && query.together(*soup, k)) {
             k = end;
             continue;
         }

@@ -8,7 +8,7 @@ namespace trg::TRG_ISA {
 constexpr uint32_t kWholePacket = (1u << kPacketRays) - 1;
 
 /// Fewer rays than these meet a node or a leaf one by one.
-constexpr int kLeastWalkers = 2;
+constexpr int kLeastWalkers = 4;
 constexpr int kLeastTesters = 7;
 
 /// Subtrees still to be visited, the next one last: which rays meet their boxes, and where.
