@@ -60,9 +60,17 @@ TRG_INLINE_FN ChildOrder order_children(const ChildHits& hits) {
 
 #endif
 
-/// Pushes child `lane` when rays of `among` meet its box before `limit`.
-TRG_INLINE_FN void push_child(const WideNode& node, int lane, const RayPacket& packet,
-                              const Float16& limit, uint32_t among, PacketStack& stack) {
+/// A packet at a node: the test of its beam, and the rays that are there.
+struct PacketStep {
+    const NodeTest<QuickBoxTest>& beam;
+    const RayPacket& packet;
+    uint32_t among;
+};
+
+/// Pushes child `lane` when rays of the step meet its box before `limit`.
+TRG_INLINE_FN void push_child(const WideNode& node, int lane, const PacketStep& step,
+                              const Float16& limit, PacketStack& stack) {
+    const RayPacket& packet = step.packet;
     Float16 entry = load16(packet.t_min), exit = limit;
     for (int axis = 0; axis < 3; ++axis) {
         const int near = packet.bounds.sign[axis];
@@ -75,7 +83,7 @@ TRG_INLINE_FN void push_child(const WideNode& node, int lane, const RayPacket& p
                                   load16(packet.far_shift[axis])),
                      exit);
     }
-    const uint32_t met = among & mask_less_equal(entry, exit);
+    const uint32_t met = step.among & mask_less_equal(entry, exit);
     if (!met) return;
     store16(stack.entry[stack.size], entry);
     stack.ref[stack.size] = node.child[lane];
@@ -88,19 +96,18 @@ TRG_INLINE_FN Float16 limits_of(const PacketSearch& search) {
 
 /// Pushes the children of a node, the nearest last where `kSorted`.
 template <bool kSorted>
-TRG_INLINE_FN void visit_node(const WideNode& node, const NodeTest<QuickBoxTest>& beam,
-                              const RayPacket& packet, uint32_t among, const PacketSearch& search,
-                              PacketStack& stack) {
-    const ChildHits hits = beam.meet(node, search.farthest);
+TRG_INLINE_FN void visit_node(const WideNode& node, const PacketStep& step,
+                              const PacketSearch& search, PacketStack& stack) {
+    const ChildHits hits = step.beam.meet(node, search.farthest);
     const Float16 limit = limits_of(search);
     if (kSorted && (hits.mask & (hits.mask - 1))) {
         const ChildOrder order = order_children(hits);
         for (int k = 0; k < order.count; ++k)
-            push_child(node, static_cast<int>(order.key[k] & 7), packet, limit, among, stack);
+            push_child(node, static_cast<int>(order.key[k] & 7), step, limit, stack);
         return;
     }
     for (uint32_t left = hits.mask; left; left &= left - 1)
-        push_child(node, lowest_bit(left), packet, limit, among, stack);
+        push_child(node, lowest_bit(left), step, limit, stack);
 }
 
 /// Takes the next subtree that rays still look for: these rays; 0 when none is left.
@@ -131,7 +138,7 @@ TRG_FN void walk_packet(const Subtree& tree, const RayPacket& packet, uint32_t a
         else if (count_bits(rays) < kLeastWalkers)
             visit.alone(ref, rays);
         else
-            visit_node<kSorted>(tree.nodes[ref], beam, packet, rays, search, stack);
+            visit_node<kSorted>(tree.nodes[ref], {beam, packet, rays}, search, stack);
     }
 }
 
