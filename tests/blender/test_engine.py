@@ -241,3 +241,38 @@ def test_the_pixel_filter_softens_edges(cube, tmp_path):
     np.testing.assert_array_equal(box, wide_box)
     assert bell.mean() == pytest.approx(box.mean(), rel=0.02)
     assert np.abs(np.diff(bell, axis=1)).max() < 0.7 * np.abs(np.diff(box, axis=1)).max()
+
+
+def animate(owner, path, values):
+    for frame, value in values:
+        setattr(owner, path, value)
+        owner.keyframe_insert(path, frame=frame)
+
+
+@pytest.mark.parametrize("position", ["START", "CENTER", "END"])
+def test_motion_blur_follows_the_shutter(cube, tmp_path, position):
+    """A blurred cube covers more pixels; afterwards the scene is where it was."""
+    cube.trg.samples = 16
+    mover = cube.objects["Cube"]
+    animate(mover, "location", ((0, (-2, 0, 0)), (2, (2, 0, 0))))
+    cube.frame_set(1)
+    still = rgb(render(cube, tmp_path / "still.exr"))
+    cube.render.use_motion_blur, cube.render.motion_blur_shutter = True, 1.0
+    cube.render.motion_blur_position = position
+    blurred = rgb(render(cube, tmp_path / "blurred.exr"))
+    assert np.abs(blurred - still).mean() > 0.01 * still.mean()
+    assert cube.frame_current == 1 and tuple(mover.location) == pytest.approx((0, 0, 0), abs=1e-5)
+    assert not records.report_of(cube.name)["warnings"]
+
+
+def test_a_mesh_that_changes_in_the_shutter_is_warned_of(cube, tmp_path):
+    mesh = cube.objects["Cube"].data
+    cube.objects["Cube"].shape_key_add(name="Basis")
+    key = cube.objects["Cube"].shape_key_add(name="Grown")
+    for point in key.data:
+        point.co = 2.0 * point.co
+    animate(mesh.shape_keys.key_blocks["Grown"], "value", ((0, 0.0), (2, 1.0)))
+    cube.render.use_motion_blur = True
+    render(cube, tmp_path / "grown.exr")
+    (warning,) = records.report_of(cube.name)["warnings"]
+    assert "'Cube'" in warning and "shutter" in warning

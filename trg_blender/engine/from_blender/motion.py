@@ -78,19 +78,42 @@ def read_motion(
     depsgraph: bpy.types.Depsgraph, shutter: Shutter, frame_set: FrameSet, warnings: list[str]
 ) -> Motion:
     """Places at the keys. Leaves `depsgraph` at the middle of the shutter."""
-    instances, randoms, cameras = [], [], []
+    instances, randoms, cameras, shapes = [], [], [], []
     for step in STEPS:
         frame_set(shutter.middle + step * shutter.length)
         places, numbers = _places(depsgraph)
         instances.append(places)
         randoms.append(numbers)
+        shapes.append(_shapes(depsgraph))
         camera = depsgraph.scene_eval.camera
         cameras.append(None if camera is None else _rigid(camera.evaluated_get(depsgraph)))
     frame_set(shutter.middle)
     same = all(len(each) == len(randoms[0]) and (each == randoms[0]).all() for each in randoms)
     if not same:
         warnings.append("objects come or go while the shutter is open: none of them is blurred")
+    changed = sorted(
+        name for name, shape in shapes[0].items() if any(each.get(name) != shape for each in shapes)
+    )
+    if changed:
+        more = f" and {len(changed) - 1} more" if len(changed) > 1 else ""
+        warnings.append(
+            f"object {changed[0]!r}{more}: a mesh that changes while the shutter is open is shown as in the middle"
+        )
     return Motion(np.stack(instances) if same else None, _camera_keys(cameras))
+
+
+def _shapes(depsgraph: bpy.types.Depsgraph) -> dict[str, int]:
+    """What tells the vertices of each mesh object from others."""
+    shapes: dict[str, int] = {}
+    for instance in depsgraph.object_instances:
+        owner = instance.object
+        if owner.type == "MESH" and owner.name not in shapes:
+            mesh = owner.data
+            flat = np.zeros(len(mesh.vertices) * 3, np.float32)
+            if len(flat):
+                mesh.attributes["position"].data.foreach_get("vector", flat)
+            shapes[owner.name] = hash(flat.tobytes())
+    return shapes
 
 
 def _places(depsgraph: bpy.types.Depsgraph) -> tuple[Float32, np.ndarray]:
