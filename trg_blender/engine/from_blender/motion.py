@@ -97,7 +97,8 @@ def read_motion(
     if changed:
         more = f" and {len(changed) - 1} more" if len(changed) > 1 else ""
         warnings.append(
-            f"object {changed[0]!r}{more}: a mesh that changes while the shutter is open is shown as in the middle"
+            f"object {changed[0]!r}{more}: a mesh that changes while the shutter is open "
+            "is shown as it is in the middle"
         )
     return Motion(np.stack(instances) if same else None, _camera_keys(cameras))
 
