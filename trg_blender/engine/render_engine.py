@@ -171,12 +171,18 @@ class TRGRenderEngine(bpy.types.RenderEngine):
             job.cancel()
         outcome = job.result()
         write_pixels(result, outcome.pixels, outcome.passes)
-        stamp_mattes(result, frame.arrays, frame.settings.passes)
+        self._stamp(frame, result.layers[0].name)
         report = with_source(outcome.report, frame.file, frame.number, frame.seconds)
         records.keep_report(frame.scene_name, report)
         if interrupted:
             raise RenderCancelled
         return self.test_break()
+
+    def _stamp(self, frame: Frame, layer: str) -> None:
+        """Into the whole render's result: Blender forgets the fields of the part that a layer fills."""
+        whole = self.get_result()
+        if whole is not None:
+            stamp_mattes(whole, layer, frame.arrays, frame.settings.passes)
 
     def _follow(self, job: session.RenderJob, result: bpy.types.RenderResult) -> None:
         """Polls until the job is done; shows progress and, with a window, the picture so far."""

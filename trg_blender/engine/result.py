@@ -139,8 +139,10 @@ def split_layers(name: str, values: Float32) -> dict[str, Float32]:
     return {each: values[..., 4 * k : 4 * k + 4] for k, each in enumerate(names)}
 
 
-def stamp_mattes(result: bpy.types.RenderResult, arrays: SceneArrays, passes: Sequence[str]) -> None:
-    """Writes into `result` what its Cryptomatte layers are called and whom their ids stand for."""
+def stamp_mattes(
+    result: bpy.types.RenderResult, layer: str, arrays: SceneArrays, passes: Sequence[str]
+) -> None:
+    """Writes into `result` what the Cryptomatte passes of `layer` are called and whom their ids stand for."""
     if arrays.pass_data is None:
         return
     who = [each for instance in arrays.instances for each in instance.identities]
@@ -150,8 +152,7 @@ def stamp_mattes(result: bpy.types.RenderResult, arrays: SceneArrays, passes: Se
         "cryptomatte_material": [each.name for each in arrays.pass_data.materials],
     }
     for name in sorted(names.keys() & set(passes)):
-        layer = f"{result.layers[0].name}.{PASSES[name].name}"
-        for field_name, value in metadata(layer, names[name]).items():
+        for field_name, value in metadata(f"{layer}.{PASSES[name].name}", names[name]).items():
             result.stamp_data_add_field(field_name, value)
 
 
