@@ -72,6 +72,7 @@ def material_scenes() -> dict[str, Any]:
         ),
         "node closures": node_closures,
         "mixed closures": mixed_closures,
+        "textured mixtures": textured_mixtures,
     }
 
 
@@ -111,6 +112,41 @@ def mixed_closures() -> Stage:
     ]
     pairs += [("ShaderNodeBsdfTransparent", "ShaderNodeBsdfAnisotropic")]
     stage.add_spheres([mix(first, second, 0.4) for first, second in pairs])
+    return stage
+
+
+def textured_mix(first: str, second: str, kind: str = "ShaderNodeMixShader") -> Any:
+    """Two shaders by a checker, or added."""
+    material, tree, output = empty_material("textured mix")
+    mixer = tree.nodes.new(kind)
+    for socket, name in zip(list(mixer.inputs)[-2:], (first, second), strict=True):
+        tree.links.new(tree.nodes.new(name).outputs[0], socket)
+    if kind == "ShaderNodeMixShader":
+        checker = tree.nodes.new("ShaderNodeTexChecker")
+        checker.inputs["Scale"].default_value = 8.0
+        checker.inputs["Color1"].default_value = (0.9, 0.9, 0.9, 1.0)
+        checker.inputs["Color2"].default_value = (0.3, 0.3, 0.3, 1.0)
+        coordinates = tree.nodes.new("ShaderNodeTexCoord")
+        tree.links.new(coordinates.outputs["UV"], checker.inputs["Vector"])
+        tree.links.new(checker.outputs["Color"], mixer.inputs[0])
+    tree.links.new(mixer.outputs[0], output.inputs["Surface"])
+    return material
+
+
+def textured_mixtures() -> Stage:
+    stage = lit_stage()
+    pairs = [
+        ("ShaderNodeBsdfDiffuse", "ShaderNodeBsdfAnisotropic"),
+        ("ShaderNodeBsdfTransparent", "ShaderNodeBsdfDiffuse"),
+        ("ShaderNodeEmission", "ShaderNodeBsdfTransparent"),
+    ]
+    materials = [textured_mix(first, second) for first, second in pairs]
+    added = [
+        ("ShaderNodeBsdfTranslucent", "ShaderNodeBsdfAnisotropic"),
+        ("ShaderNodeBsdfTransparent", "ShaderNodeEmission"),
+    ]
+    materials += [textured_mix(first, second, "ShaderNodeAddShader") for first, second in added]
+    stage.add_spheres(materials)
     return stage
 
 

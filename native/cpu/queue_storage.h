@@ -18,6 +18,7 @@ class QueueStorage {
           keys_(capacity),
           results_(capacity),
           receivers_(capacity),
+          media_(capacity),
           shadow_rays_(static_cast<size_t>(capacity) * lights),
           shadows_(static_cast<size_t>(capacity) * lights),
           hidden_(static_cast<size_t>(capacity) * (lights > 1 ? lights : 1)),
@@ -41,6 +42,7 @@ class QueueStorage {
                 keys_.data(),
                 results_.data(),
                 receivers_.data(),
+                media_.data(),
                 shadow_rays_.data(),
                 shadows_.data(),
                 hidden_.data(),
@@ -58,6 +60,7 @@ class QueueStorage {
     std::vector<SampleKey> keys_;
     std::vector<PathResult> results_;
     std::vector<Vec3> receivers_;
+    std::vector<MediaStack> media_;
     std::vector<Ray> shadow_rays_;
     std::vector<ShadowState> shadows_;
     std::vector<uint8_t> hidden_;

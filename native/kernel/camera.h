@@ -103,6 +103,7 @@ TRG_FN int32_t generate_paths(const RenderView& view, const Chunk& chunk, PathQu
                              ? make_camera_ray(view_at(view, queues.times[i]), x, y, lens)
                              : make_camera_ray(view, x, y, lens);
         queues.states[i] = {{1.0f, 1.0f, 1.0f}, 0.0f, i};
+        queues.media[i].count = 0;
         queues.results[i] = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, false};
     }
     return count;

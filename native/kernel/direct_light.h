@@ -1,8 +1,8 @@
 /// Next-event estimation: shadow rays for the lights that always get one and for one of the pool.
 #pragma once
 
-#include "kernel/look_up.h"
-#include "kernel/path_queues.h"
+#include "kernel/closures.h"
+#include "kernel/media.h"
 #include "shade/bsdf.h"
 
 namespace trg {
@@ -14,6 +14,7 @@ struct Vertex {
     Frame frame;  // around the shading normal on the viewer's side
     Bsdf bsdf;
     Vec3 throughput;
+    Vec3 absorption[2];  // per unit of length, on the side of ng and beyond the surface
     SampleKey key;
     uint32_t dimension;
     int32_t path;
@@ -37,21 +38,16 @@ TRG_FN Vec3 eval_emission(const SceneView& scene, const Surface& s, Vec3 wo) {
     return m.emission;
 }
 
-/// How much of the surface `s` is there.
-template <uint32_t F>
-TRG_FN float alpha_of(const SceneView& scene, const Surface& s, Vec3 wo) {
-    const Material& m = scene.materials[s.material];
-    if constexpr (has(F, kTextures))
-        if (m.alpha_texture >= 0) {
-            LookUp look{scene, s, wo, false, {}, {}};
-            return clamp01(look_up<F>(&look, m.alpha_texture).x);
-        }
-    return m.alpha;
-}
-
 /// Where a ray that leaves `s` along `wi` starts.
 TRG_FN Vec3 ray_origin(const Surface& s, Vec3 ng, Vec3 wi) {
     return leave_surface(s, dot(ng, wi) > 0.0f ? ng : -ng);
+}
+
+/// Share of light that is left after `way` from `v` along `wi`.
+template <uint32_t F>
+TRG_FN Vec3 dimmed_to(const Vertex& v, Vec3 wi, float way) {
+    if constexpr (has(F, kMedia)) return light_left(v.absorption[dot(v.ng, wi) < 0.0f], way);
+    return {1.0f, 1.0f, 1.0f};
 }
 
 /// Queues `sample` of an emitter that was chosen with chance `share`.
@@ -61,7 +57,8 @@ TRG_FN void queue_sample(const LightSample& sample, const Vertex& v, float share
     const BsdfValue f = eval_bsdf<lobes_of(F)>(v.bsdf, to_local(v.frame, sample.wi));
     const float weight =
         sample.pdf > 0.0f ? power_heuristic(share * sample.pdf, f.pdf) / share : 1.0f / share;
-    const Vec3 light = v.throughput * f.f_cos * sample.light * weight;
+    Vec3 light = v.throughput * f.f_cos * sample.light * weight;
+    if constexpr (has(F, kMedia)) light = light * dimmed_to<F>(v, sample.wi, sample.distance);
     if (is_black(light)) return;
     // The last bit of the way is left out: geometry may touch the light.
     const float t_max = sample.distance < kFar ? sample.distance * 0.999998f : kFar;
@@ -111,7 +108,8 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v,
     const BsdfValue f = eval_bsdf<lobes_of(F)>(v.bsdf, to_local(v.frame, wi));
     float scale = power_heuristic(pdf, f.pdf) / pdf;
     if constexpr (has(F, kSeeThrough)) scale *= alpha_of<F>(scene, s, -wi);
-    const Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, s, -wi) * scale;
+    Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, s, -wi) * scale;
+    if constexpr (has(F, kMedia)) light = light * dimmed_to<F>(v, wi, std::sqrt(d2));
     if (is_black(light)) return;
     const Vec3 origin = ray_origin(v.surface, v.ng, wi);
     queue->rays[queue->count] = {origin, 0.0f, target - origin, 1.0f};
@@ -121,7 +119,8 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v,
 /// The normal of the side that light must come from to be scattered; null where it may be any.
 template <uint32_t F>
 TRG_FN Vec3 receiver_of(const Vertex& v) {
-    if (has(F, kTransmission) && v.bsdf.p_glass > 0.0f) return {0.0f, 0.0f, 0.0f};
+    if (has(F, kTransmission) && (v.bsdf.p_glass > 0.0f || v.bsdf.turned))
+        return {0.0f, 0.0f, 0.0f};
     return v.frame.n;
 }
 

@@ -48,6 +48,15 @@ struct PassQueues {
     ScatterShares* shadow_shares;  // by shadow ray of the first surface
 };
 
+constexpr int32_t kMostMedia = 4;
+
+/// The materials whose insides a path is in, in the order of entering; more than these are not
+/// told.
+struct MediaStack {
+    int32_t count;
+    int32_t materials[kMostMedia];
+};
+
 /// Arrays of `capacity` paths; slots [0, count) hold the living ones.
 struct PathQueues {
     int32_t capacity;
@@ -56,7 +65,8 @@ struct PathQueues {
     PathState* states;
     SampleKey* keys;      // by path
     PathResult* results;  // by path
-    Vec3* receivers;  // by path: normal that light was drawn for last, null for any; for the tree
+    Vec3* receivers;    // by path: normal that light was drawn for last, null for any; for the tree
+    MediaStack* media;  // by path
     Ray* shadow_rays;
     ShadowState* shadows;
     uint8_t* hidden;
@@ -108,7 +118,8 @@ enum Dimension : uint32_t {
     kAlwaysLight = 4,  // and the three after it
     kSkyLight = 8,
     kTreeChoice = 9,  // where the tree is one of several
-    kDimensionsPerBounce = 10,
+    kClosure = 10,
+    kDimensionsPerBounce = 11,
 };
 constexpr int kMostAlwaysLights = 4;
 

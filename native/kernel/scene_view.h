@@ -18,6 +18,8 @@ enum Feature : uint32_t {
     kExtendedEmitters = 8,  // lights with extent, and surfaces that emit
     kLayers = 16,           // coat, sheen, rough diffuse
     kSeeThrough = 32,       // surfaces that let light straight through
+    kMixtures = 64,         // materials that are several rows
+    kMedia = 128,           // surfaces around something that absorbs
     kEnvironment = 512,     // a picture of the world around
     kPrograms = 1024,       // textures that are programs, and normals that they bend
     kPasses = 2048,         // passes beside combined, depth and normal

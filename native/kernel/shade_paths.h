@@ -18,9 +18,31 @@ struct ShadeStage {
     int32_t next_count;
 };
 
-/// What the lights of the tree add to a bounce ray; `receiver` as the last surface drew light.
-TRG_FN Vec3 gather_tree(const SceneView& scene, const Ray& ray, float t_end, float pdf,
-                        Vec3 receiver) {
+/// How a path came here, and how light was drawn where it started.
+struct Arrival {
+    const Ray& ray;
+    const Hit& hit;
+    float pdf;        // of the ray's direction; 0 after a delta or from the camera
+    Vec3 receiver;    // as PathQueues has it
+    Vec3 absorption;  // per unit of length on the way
+};
+
+/// What `light`, drawn with chance `share`, adds to a bounce ray.
+template <uint32_t F>
+TRG_FN Vec3 gather_light(const Light& light, const Arrival& by, float share) {
+    LightHit hit;
+    const float t_end = by.hit.triangle >= 0 ? by.hit.t : kFar;
+    if (!intersect_light(light, by.ray.origin, by.ray.direction, t_end, &hit))
+        return {0.0f, 0.0f, 0.0f};
+    if constexpr (has(F, kMedia))
+        hit.radiance = hit.radiance * light_left(by.absorption, hit.distance);
+    return hit.radiance * (by.pdf > 0.0f ? power_heuristic(by.pdf, share * hit.pdf) : 1.0f);
+}
+
+/// What the lights of the tree add to a bounce ray.
+template <uint32_t F>
+TRG_FN Vec3 gather_tree(const SceneView& scene, const Arrival& by) {
+    const float t_end = by.hit.triangle >= 0 ? by.hit.t : kFar;
     struct Branch {
         int32_t node;
         float chance;
@@ -34,35 +56,28 @@ TRG_FN Vec3 gather_tree(const SceneView& scene, const Ray& ray, float t_end, flo
     while (height > 0) {
         const Branch at = stack[--height];
         const LightNode& node = tree.nodes[at.node];
-        if (!ray_meets_node(node, ray.origin, ray.direction, t_end)) continue;
+        if (!ray_meets_node(node, by.ray.origin, by.ray.direction, t_end)) continue;
         if (node.second >= 0) {
-            const float first = first_chance(tree, at.node, ray.origin, receiver);
+            const float first = first_chance(tree, at.node, by.ray.origin, by.receiver);
             const bool dark = first < 0.0f;
             stack[height++] = {at.node + 1, dark ? 0.0f : at.chance * first};
             stack[height++] = {node.second, dark ? 0.0f : at.chance * (1.0f - first)};
             continue;
         }
-        LightHit hit;
-        if (node.emitter < 0 || !scene.lights[node.emitter].extended ||
-            !intersect_light(scene.lights[node.emitter], ray.origin, ray.direction, t_end, &hit))
-            continue;
-        sum = sum + hit.radiance * (pdf > 0.0f ? power_heuristic(pdf, at.chance * hit.pdf) : 1.0f);
+        if (node.emitter >= 0 && scene.lights[node.emitter].extended)
+            sum = sum + gather_light<F>(scene.lights[node.emitter], by, at.chance);
     }
     return sum;
 }
 
-/// What lights with extent add to a bounce ray that ends at `t_end`.
-TRG_FN Vec3 gather_lights(const SceneView& scene, const Ray& ray, float t_end, float pdf) {
+/// What lights with extent add to a bounce ray.
+template <uint32_t F>
+TRG_FN Vec3 gather_lights(const SceneView& scene, const Arrival& by) {
     Vec3 sum{0.0f, 0.0f, 0.0f};
     const EmitterView& e = scene.emitters;
-    for (int32_t k = 0; k < e.extended_count; ++k) {
-        LightHit hit;
-        if (!intersect_light(scene.lights[e.extended[k]], ray.origin, ray.direction, t_end, &hit))
-            continue;
-        const float weight =
-            pdf > 0.0f ? power_heuristic(pdf, e.extended_shares[k] * hit.pdf) : 1.0f;
-        sum = sum + hit.radiance * weight;
-    }
+    for (int32_t k = 0; k < e.extended_count; ++k)
+        sum = sum + gather_light<F>(scene.lights[e.extended[k]], by, e.extended_shares[k]);
+    if (e.tree.has_extended) sum = sum + gather_tree<F>(scene, by);
     return sum;
 }
 
@@ -90,14 +105,6 @@ TRG_FN float triangle_density(const EmitterView& e, Vec3 p, const Hit& hit, Vec3
     return leaf < 0 ? 0.0f : tree_chance(e.tree, leaf, p, receiver) / e.tree.nodes[leaf].power;
 }
 
-/// How a bounce ray met a surface, and how light was drawn where it started.
-struct Arrival {
-    const Ray& ray;
-    const Hit& hit;
-    float pdf;      // of the ray's direction; 0 after a delta or from the camera
-    Vec3 receiver;  // as PathQueues has it
-};
-
 /// Emission of the surface met, weighted against the chance of sampling it as a light.
 template <uint32_t F>
 TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Arrival& by) {
@@ -111,10 +118,10 @@ TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Arriva
     return light * power_heuristic(by.pdf, density * by.hit.t * by.hit.t / cosine);
 }
 
-/// The material at the point, its textures looked up.
+/// The material in `row` at the point, its textures looked up.
 template <uint32_t F>
-TRG_FN Material material_at(LookUp* look) {
-    Material m = look->scene.materials[look->surface.material];
+TRG_FN Material material_at(LookUp* look, int32_t row) {
+    Material m = look->scene.materials[row];
     if constexpr (has(F, kTextures)) {
         if (m.base_texture >= 0) m.base = look_up<F>(look, m.base_texture);
         if (m.roughness_texture >= 0)
@@ -125,12 +132,12 @@ TRG_FN Material material_at(LookUp* look) {
     return m;
 }
 
-/// The shading normal that the material's normal texture asks for, on the viewer's side, where it
-/// asks for one that the viewer can see; else `normal`.
+/// The shading normal that the normal texture of the material in `row` asks for, on the viewer's
+/// side, where it asks for one that the viewer can see; else `normal`.
 template <uint32_t F>
-TRG_FN Vec3 bent_normal(LookUp* look, Vec3 normal) {
+TRG_FN Vec3 bent_normal(LookUp* look, int32_t row, Vec3 normal) {
     if constexpr (has(F, kPrograms)) {
-        const int32_t texture = look->scene.materials[look->surface.material].normal_texture;
+        const int32_t texture = look->scene.materials[row].normal_texture;
         if (texture < 0) return normal;
         const Vec3 bent = normalize_safe(look_up<F>(look, texture));
         if (dot(look->wo, bent) > 1e-4f) return bent;
@@ -138,7 +145,8 @@ TRG_FN Vec3 bent_normal(LookUp* look, Vec3 normal) {
     return normal;
 }
 
-/// Normals and mixture at the surface in `v`, seen along `wo`; false when it scatters nothing.
+/// Normals and lobes at the surface in `v`, seen along `wo`; false when it scatters nothing. Of a
+/// mixture one row is drawn and the throughput set right.
 /// `normal` receives the shading normal turned to the viewer.
 template <uint32_t F>
 TRG_FN bool make_vertex(const SceneView& scene, Vec3 wo, Vertex* v, Vec3* normal) {
@@ -152,12 +160,18 @@ TRG_FN bool make_vertex(const SceneView& scene, Vec3 wo, Vertex* v, Vec3* normal
         if (dot(wo, turned) > 1e-4f) *normal = turned;
     }
     LookUp look{scene, s, wo, false, {}, {}};
-    *normal = bent_normal<F>(&look, *normal);
+    int32_t row = s.material;
+    if constexpr (has(F, kMixtures)) {
+        float scale;
+        row = choose_closure<F>(&look, sample_uniform2(v->key, v->dimension + kClosure).u, &scale);
+        v->throughput = v->throughput * scale;
+    }
+    *normal = bent_normal<F>(&look, row, *normal);
     if (!(dot(wo, *normal) > 0.0f)) return false;
     v->frame = make_frame(*normal);
     const View view{to_local(v->frame, wo), to_local(v->frame, v->ng), facing >= 0.0f,
                     scene.energy};
-    return make_bsdf<lobes_of(F)>(material_at<F>(&look), view, &v->bsdf);
+    return make_bsdf<lobes_of(F)>(material_at<F>(&look, row), view, &v->bsdf);
 }
 
 /// Draws the next direction and keeps the path if it survives roulette.
@@ -177,6 +191,10 @@ TRG_FN void continue_path(ShadeStage& stage, const Vertex& v) {
     }
     if (is_black(throughput)) return;
     const Vec3 wi = normalize(to_world(v.frame, next.wi));
+    if constexpr (has(F, kMedia))
+        if (dot(v.ng, wi) < 0.0f)
+            cross_surface(stage.view.scene, v.surface.material, dot(v.ng, v.surface.outside) > 0.0f,
+                          &stage.queues.media[v.path]);
     const int32_t slot = stage.next_count++;
     stage.queues.rays[slot] = {ray_origin(v.surface, v.ng, wi), 0.0f, wi, kFar};
     stage.queues.states[slot] = {throughput, next.pdf, v.path};
@@ -211,6 +229,19 @@ TRG_FN void scatter_path(ShadeStage& stage, const Vertex& v) {
     }
 }
 
+/// What lies on the way to the surface and on both its sides.
+template <uint32_t F>
+TRG_FN void find_media(const ShadeStage& stage, const Ray& ray, Vertex* v) {
+    const SceneView& scene = stage.view.scene;
+    MediaStack& media = stage.queues.media[v->path];
+    const bool outside = dot(v->surface.outside, ray.direction) <= 0.0f;
+    if (!outside) find_beginning(scene, v->surface.material, &media);
+    v->absorption[0] = absorption_of(scene, media);
+    MediaStack beyond = media;
+    cross_surface(scene, v->surface.material, outside, &beyond);
+    v->absorption[1] = absorption_of(scene, beyond);
+}
+
 /// One path at the end of its ray. Slots are written at or before the one being read.
 template <uint32_t F>
 TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
@@ -220,46 +251,46 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
     const PathState state = stage.queues.states[slot];
     const PathAt end{state.path, stage.depth};
     PathResult& result = stage.queues.results[state.path];
+    Vertex v;
+    v.path = state.path;
+    v.throughput = state.throughput;
+    const bool met = hit.triangle >= 0;
+    if (met)
+        v.surface =
+            surface_of_hit<F>(scene, {ray, path_time(scene, stage.queues, state.path)}, hit);
+    Arrival by{ray, hit, state.pdf, stage.queues.receivers[state.path], {0.0f, 0.0f, 0.0f}};
+    if constexpr (has(F, kMedia)) {
+        if (met) find_media<F>(stage, ray, &v);
+        by.absorption =
+            met ? v.absorption[0] : absorption_of(scene, stage.queues.media[state.path]);
+        const float way = met ? hit.t * length(ray.direction) : kFar;
+        v.throughput = v.throughput * light_left(by.absorption, way);
+    }
     if constexpr (has(F, kExtendedEmitters))
-        if (stage.depth > 0 && scene.emitters.extended_count > 0)
-            add_light<F>(
-                stage.view, stage.queues, end, kEmissionPass,
-                state.throughput *
-                    gather_lights(scene, ray, hit.triangle >= 0 ? hit.t : kFar, state.pdf));
-    if constexpr (has(F, kExtendedEmitters))
-        if (stage.depth > 0 && scene.emitters.tree.has_extended)
-            add_light<F>(
-                stage.view, stage.queues, end, kEmissionPass,
-                state.throughput * gather_tree(scene, ray, hit.triangle >= 0 ? hit.t : kFar,
-                                               state.pdf, stage.queues.receivers[state.path]));
-    if (hit.triangle < 0) {
-        add_light<F>(
-            stage.view, stage.queues, end, kEnvironmentPass,
-            state.throughput * world_seen<F>(scene, ray.direction, state.pdf, stage.depth));
+        if (stage.depth > 0)
+            add_light<F>(stage.view, stage.queues, end, kEmissionPass,
+                         state.throughput * gather_lights<F>(scene, by));
+    if (!met) {
+        add_light<F>(stage.view, stage.queues, end, kEnvironmentPass,
+                     v.throughput * world_seen<F>(scene, ray.direction, state.pdf, stage.depth));
         return;
     }
     if (stage.depth == 0) result.hit = true;
-    Vertex v;
-    v.surface = surface_of_hit<F>(scene, {ray, path_time(scene, stage.queues, state.path)}, hit);
     if constexpr (has(F, kExtendedEmitters))
         if (scene.materials[v.surface.material].emission_weight > 0.0f)
             add_light<F>(stage.view, stage.queues, end, kEmissionPass,
-                         state.throughput * emission_seen<F>(scene, v.surface,
-                                                             {ray, hit, state.pdf,
-                                                              stage.queues.receivers[state.path]}));
+                         v.throughput * emission_seen<F>(scene, v.surface, by));
     if constexpr (has(F, kPasses))
         if (stage.depth == 0)
             note_place(stage.view, stage.queues.passes, state.path, v.surface,
                        hit.t * length(ray.direction));
     if (stage.depth > stage.view.max_bounces) return;
+    v.key = stage.queues.keys[state.path];
+    v.dimension = kFirstBounceDimension + kDimensionsPerBounce * static_cast<uint32_t>(stage.depth);
     Vec3 normal;
     const bool scatters = make_vertex<F>(scene, -normalize(ray.direction), &v, &normal);
     if (stage.depth == 0) result.normal = normal;
     if (!scatters) return;
-    v.throughput = state.throughput;
-    v.path = state.path;
-    v.key = stage.queues.keys[state.path];
-    v.dimension = kFirstBounceDimension + kDimensionsPerBounce * static_cast<uint32_t>(stage.depth);
     scatter_path<F>(stage, v);
 }
 

@@ -119,7 +119,7 @@ constexpr uint32_t kLamps = kSmoothNormals | kExtendedEmitters;
 constexpr uint32_t kTextured = kLamps | kTextures;
 constexpr uint32_t kOutdoor = kTextured | kEnvironment;
 constexpr uint32_t kGlass = kOutdoor | kTransmission;
-constexpr uint32_t kFull = kGlass | kLayers | kSeeThrough;
+constexpr uint32_t kFull = kGlass | kLayers | kSeeThrough | kMixtures | kMedia;
 constexpr uint32_t kProgrammed = kFull | kPrograms;
 constexpr uint32_t kPassed = kProgrammed | kPasses;
 

@@ -74,8 +74,9 @@ void FrozenScene::check_materials(const Scene& scene) const {
         throw TableError("materials: the scene has instances but no material");
     const int64_t textures = static_cast<int64_t>(scene.tables.textures.textures.size());
     for (const Material& m : scene.tables.materials)
-        for (int32_t index : {m.base_texture, m.roughness_texture, m.metallic_texture,
-                              m.emission_texture, m.normal_texture})
+        for (int32_t index :
+             {m.base_texture, m.roughness_texture, m.metallic_texture, m.emission_texture,
+              m.normal_texture, m.alpha_texture, m.weight_texture})
             if (index >= textures)
                 throw TableError(
                     "textures: the table was replaced by one too short for the materials");
@@ -120,9 +121,12 @@ uint32_t FrozenScene::find_features(const Scene& scene) const {
         if (texture.program >= 0 || texture.uv_map > 0) features |= kPrograms;
     for (const Material& m : scene.tables.materials) {
         if (m.base_texture >= 0 || m.roughness_texture >= 0 || m.metallic_texture >= 0 ||
-            m.emission_texture >= 0 || m.normal_texture >= 0)
+            m.emission_texture >= 0 || m.normal_texture >= 0 || m.alpha_texture >= 0 ||
+            m.weight_texture >= 0)
             features |= kTextures;
-        if (m.transmission > 0.0f) features |= kTransmission;
+        if (m.transmission > 0.0f || m.translucent) features |= kTransmission;
+        if (m.mix_count > 0) features |= kMixtures;
+        if (!is_black(m.absorption)) features |= kMedia;
         if (m.coat > 0.0f || max_component(m.sheen) > 0.0f || m.diffuse_roughness > 0.0f)
             features |= kLayers;
         if (m.alpha < 1.0f || m.alpha_texture >= 0) features |= kSeeThrough;

@@ -42,7 +42,15 @@ const std::vector<const char*> kMaterialFields = {"base_r",
                                                   "through_r",
                                                   "through_g",
                                                   "through_b",
-                                                  "alpha_texture"};
+                                                  "alpha_texture",
+                                                  "translucent",
+                                                  "mix_first",
+                                                  "mix_count",
+                                                  "weight",
+                                                  "weight_texture",
+                                                  "absorption_r",
+                                                  "absorption_g",
+                                                  "absorption_b"};
 
 namespace {
 
@@ -52,13 +60,8 @@ Vec3 next_color(TableRow& row) {
     return {r, g, b};
 }
 
-Vec3 next_share_color(TableRow& row) {
-    const float r = row.next_share(), g = row.next_share(), b = row.next_share();
-    return {r, g, b};
-}
-
 /// The columns in their order.
-Material read_material(TableRow row, int64_t texture_count) {
+Material read_material(TableRow row, int64_t material_count, int64_t texture_count) {
     Material m{};
     m.base = next_color(row);
     m.metallic = row.next_share();
@@ -86,8 +89,16 @@ Material read_material(TableRow row, int64_t texture_count) {
     m.sheen = next_color(row);
     m.sheen_roughness = row.next_share();
     m.alpha = row.next_share();
-    m.through = next_share_color(row);
+    m.through = next_color(row);
     m.alpha_texture = row.next_index(-1, texture_count);
+    m.translucent = row.next_index(0, 2) == 1;
+    m.mix_first = row.next_index(-1, material_count);
+    m.mix_count = row.next_index(0, kMostClosures + 1);
+    m.weight = row.next(0.0f, 3.0e38f);
+    m.weight_texture = row.next_index(-1, texture_count);
+    m.absorption = next_color(row);
+    if (m.mix_count > 0 && (m.mix_first < 0 || m.mix_first + m.mix_count > material_count))
+        throw TableError("materials: a mixture of rows that are not there");
     return m;
 }
 
@@ -98,7 +109,7 @@ void set_materials(ShadingTables& tables, const Table& table) {
     std::vector<Material> materials;
     EnergyTables energy;
     for (int64_t row = 0; row < table.rows; ++row) {
-        materials.push_back(read_material({table, "materials", kMaterialFields, row},
+        materials.push_back(read_material({table, "materials", kMaterialFields, row}, table.rows,
                                           static_cast<int64_t>(tables.textures.textures.size())));
         prepare_material(&materials.back(), &energy);
     }

@@ -102,9 +102,16 @@ TRG_FN BsdfValue eval_refraction(const Bsdf& b, Vec3 wi) {
             b.p_glass * (1.0f - f) * facets * 2.0f / (1.0f + b.slope_wo)};
 }
 
+/// The diffuse base of a surface that shines on the far side.
+TRG_FN BsdfValue eval_translucent(const Bsdf& b, Vec3 wi) {
+    if (!(wi.z < 0.0f && dot(b.ng, wi) < 0.0f)) return {{0.0f, 0.0f, 0.0f}, 0.0f};
+    return {b.diffuse * (-wi.z * kInvPi), b.p_diffuse * -wi.z * kInvPi};
+}
+
 /// What is scattered from `wi` to wo by everything but deltas.
 template <uint32_t kLobes>
 TRG_FN BsdfValue eval_bsdf(const Bsdf& b, Vec3 wi) {
+    if ((kLobes & kGlassLobe) != 0 && b.turned) return eval_translucent(b, wi);
     const float side = dot(b.ng, wi);
     if (wi.z > 0.0f && side > 0.0f) return eval_reflection<kLobes>(b, wi);
     if ((kLobes & kGlassLobe) != 0 && wi.z < 0.0f && side < 0.0f) return eval_refraction(b, wi);
@@ -194,6 +201,7 @@ TRG_FN bool sample_bsdf(const Bsdf& b, float lobe, Sample2 uv, BsdfSample* sampl
     bool is_done = false;
     if (lobe < b.p_diffuse || p_facets + p_layers == 0.0f) {
         sample->wi = sample_cosine(uv.u, uv.v);
+        if ((kLobes & kGlassLobe) != 0 && b.turned) sample->wi.z = -sample->wi.z;
     } else if ((kLobes & kLayerLobes) != 0 && (lobe - b.p_diffuse < p_layers || p_facets == 0.0f)) {
         if (!sample_layers(b, lobe - b.p_diffuse, uv, sample, &is_done)) return false;
     } else {

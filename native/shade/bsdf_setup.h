@@ -19,6 +19,7 @@ struct Bsdf {
     bool smooth;            // the base's mirrors and interfaces are ideal
     bool thin_step;         // eta so near 1 that refraction can only be sampled
     bool reflects;          // the interface reflects
+    bool turned;            // the diffuse base shines on the far side
     float eta;              // far side over near side, for the interface
     float gloss_ior;        // of the opaque dielectric, seen from outside
     MetalFresnel metal_fresnel;
@@ -166,6 +167,7 @@ TRG_FN bool make_bsdf(const Material& m, const View& view, Bsdf* b) {
     b->alpha = m.roughness * m.roughness;
     b->smooth = b->alpha < kSmoothAlpha;
     b->slope_wo = ggx_slope(view.wo, b->alpha);
+    b->turned = (kLobes & kGlassLobe) != 0 && m.translucent;
     b->gloss_ior = m.gloss_ior;
     b->gloss_shift = m.gloss_shift;
     b->metal_fresnel.f0 = m.base;

@@ -185,6 +185,7 @@ TRG_FN bool sample_light(const Light& light, Vec3 p, Sample2 uv, LightSample* sa
 struct LightHit {
     Vec3 radiance;
     float pdf;  // of sample_light for this direction
+    float distance;
 };
 
 TRG_FN bool intersect_area_light(const Light& light, Vec3 p, Vec3 wi, float t_max, LightHit* hit) {
@@ -204,6 +205,7 @@ TRG_FN bool intersect_area_light(const Light& light, Vec3 p, Vec3 wi, float t_ma
     if (!inside) return false;
     hit->radiance = light.color * eval_spread(light, cosine);
     hit->pdf = t * t / (cosine * light.area);
+    hit->distance = t;
     return true;
 }
 
@@ -216,6 +218,7 @@ TRG_FN bool intersect_soft_light(const Light& light, Vec3 p, Vec3 wi, float t_ma
     if (!(t < t_max) || dot(off, off) > light.radius * light.radius) return false;
     hit->radiance = light.color * eval_spot(light, -wi);
     hit->pdf = soft_density(light, to, wi, t);
+    hit->distance = t;
     return true;
 }
 
@@ -225,6 +228,7 @@ TRG_FN bool intersect_light(const Light& light, Vec3 p, Vec3 wi, float t_max, Li
         if (t_max < kFar || dot(off, off) > light.chord2) return false;
         hit->radiance = light.color;
         hit->pdf = 1.0f / light.solid_angle;
+        hit->distance = kFar;
         return true;
     }
     if (light.kind == LightKind::rectangle || light.kind == LightKind::ellipse)
@@ -235,6 +239,7 @@ TRG_FN bool intersect_light(const Light& light, Vec3 p, Vec3 wi, float t_max, Li
     const Vec3 to = light.position - p;
     hit->radiance = light.color * eval_spot(light, -wi);
     hit->pdf = 1.0f / (kPi * sphere_chord2(light.radius, dot(to, to)));
+    hit->distance = t;
     return true;
 }
 

@@ -13,6 +13,9 @@ enum Lobe : uint32_t {
     kLayerLobes = 2,  // coat, sheen and a rough diffuse base
 };
 
+/// Rows that one material may be a mixture of.
+constexpr int32_t kMostClosures = 64;
+
 /// How the dielectric interface of a material treats light.
 enum class Interface : int32_t { clear, stained, refraction_only };
 
@@ -46,6 +49,11 @@ struct Material {
     float alpha;   // share of the surface that is there
     Vec3 through;  // colour of what passes the rest
     int32_t alpha_texture;
+    bool translucent;              // the diffuse base shines on the far side
+    int32_t mix_first, mix_count;  // the rows that this is a mixture of; count 0: none
+    float weight;                  // as part of a mixture
+    int32_t weight_texture;
+    Vec3 absorption;  // per unit of length, of what the surface encloses
     EnergyIndex energy;
 };
 

@@ -139,6 +139,40 @@ def test_a_mixture_with_transparent_is_partly_there(nodes):
     assert row.base_r == pytest.approx(0.8) and table.warnings == []
 
 
+def test_a_mixture_of_two_surfaces_is_two_rows(nodes):
+    mixer = nodes.add("MixShader", Fac=0.25)
+    nodes.tree.links.new(nodes.add("BsdfDiffuse").outputs[0], mixer.inputs[1])
+    nodes.tree.links.new(nodes.add("BsdfTranslucent").outputs[0], mixer.inputs[2])
+    row, table = nodes.read(mixer)
+    parts = table.rows[row.mix_first : row.mix_first + row.mix_count]
+    assert [(part.weight, part.translucent) for part in parts] == [(pytest.approx(0.75), 0), (0.25, 1)]
+    assert row.alpha == pytest.approx(1.0) and table.warnings == []
+
+
+def test_a_texture_that_mixes_weighs_the_rows(nodes):
+    mixer = nodes.add("MixShader")
+    nodes.link(nodes.add("TexChecker"), mixer, "Fac", output=1)
+    nodes.tree.links.new(nodes.add("BsdfTransparent").outputs[0], mixer.inputs[1])
+    nodes.tree.links.new(nodes.add("BsdfDiffuse").outputs[0], mixer.inputs[2])
+    row, table = nodes.read(mixer)
+    assert row.alpha_texture >= 0 and row.mix_count == 1 and table.warnings == []
+    assert table.rows[row.mix_first].weight_texture >= 0
+
+
+def test_a_volume_that_absorbs(nodes):
+    volume = nodes.add("VolumeAbsorption", Color=(1.0, 0.5, 0.0, 1.0), Density=3.0)
+    nodes.link(volume, nodes.output, "Volume")
+    row, table = nodes.read(nodes.add("BsdfGlass"))
+    assert (row.absorption_r, row.absorption_g, row.absorption_b) == pytest.approx((0.0, 1.5, 3.0))
+    assert table.warnings == []
+
+
+def test_another_volume_is_named(nodes):
+    nodes.link(nodes.add("VolumeScatter"), nodes.output, "Volume")
+    _, table = nodes.read(nodes.add("BsdfGlass"))
+    assert "Volume Scatter" in table.warnings[0]
+
+
 def test_one_warning_names_everything_left_out(nodes):
     surface = nodes.add("BsdfPrincipled", Subsurface_Weight=0.5, Anisotropic=0.5)
     _, table = nodes.read(surface)

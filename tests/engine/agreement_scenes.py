@@ -73,6 +73,13 @@ MATERIALS = {
     "half_there": Material(0.9, 0.5, 0.4, alpha=0.4, through_g=0.6, emission_r=0.5),
     "half_there_glass": Material(0.9, 0.5, 0.9, transmission=1.0, roughness=0.2, alpha=0.7),
     "not_there": Material(0.9, 0.5, 0.4, alpha=0.0, through_r=0.7),
+    "translucent": Material(0.8, 0.5, 0.3, specular=0.0, translucent=1),
+    "absorbing": Material(
+        1.0, 1.0, 1.0, transmission=1.0, roughness=0.0, absorption_r=0.3, absorption_g=1.5, absorption_b=4.0
+    ),
+    "absorbing_rough": Material(
+        1.0, 1.0, 1.0, transmission=1.0, roughness=0.4, absorption_r=0.3, absorption_g=1.5, absorption_b=4.0
+    ),
     "glowing": Material(0.5, 0.5, 0.5, emission_r=2.0, emission_g=1.0, emission_b=0.3),
 }
 
@@ -115,6 +122,36 @@ LIGHTS = {
         axis_v=(0.1, 0.3, 0),
     ),
 }
+
+
+def _mixed() -> SceneArrays:
+    """A material that is a third plastic, a third glass and a fifth translucent, glows a little, and has
+    holes; the weights add up to more than what stops light, as Add Shader makes them."""
+    scene = studio(
+        Material(0, 0, 0, specular=0.0, alpha=0.7, emission_g=0.3, through_r=0.5, mix_first=2, mix_count=3)
+    )
+    scene.materials += [
+        Material(0.2, 0.5, 0.8, roughness=0.4, weight=0.3),
+        Material(1.0, 0.9, 0.9, transmission=1.0, roughness=0.2, weight=0.3),
+        Material(0.9, 0.9, 0.5, specular=0.0, translucent=1, weight=0.2),
+    ]
+    return scene
+
+
+def _nested_media() -> SceneArrays:
+    """A lamp and a glass ball inside a ball of absorbing glass, all of glass that absorbs differently."""
+    scene = studio(
+        MATERIALS["absorbing_rough"],
+        light("point", (0.3, 0.3, 0.3), (-0.3, 0.3, 0.9), radius=0.15),
+        world=(0.7, 0.8, 0.9),
+    )
+    scene.materials.append(
+        Material(1, 1, 1, transmission=1.0, roughness=0.2, absorption_r=3.0, absorption_b=0.5)
+    )
+    inner = place(1, 2, (-0.3, 0.3, 0.5))
+    inner.transforms[..., :3] *= 0.4
+    scene.instances.append(inner)
+    return scene
 
 
 def _textured() -> SceneArrays:
@@ -321,6 +358,8 @@ def _environment_and_lights() -> SceneArrays:
 
 
 GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
+    "mixed": _mixed,
+    "nested_media": _nested_media,
     "textured": _textured,
     "shapes": _shapes,
     "mirrored_and_squashed": _mirrored_and_squashed,

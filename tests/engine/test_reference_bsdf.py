@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from trg_blender.engine.reference_bsdf import Bsdf, build_bsdf, evaluate_bsdf, sample_bsdf
-from trg_blender.engine.reference_fresnel import fresnel_dielectric, fresnel_mean
 from trg_blender.engine.reference_energy import EnergyTables
+from trg_blender.engine.reference_fresnel import fresnel_dielectric, fresnel_mean
 from trg_blender.engine.reference_math import normalize
+from trg_blender.engine.reference_points import Points
 from trg_blender.engine.reference_surface import Material, Surface
 from trg_blender.engine.scene_arrays import MATERIAL_FIELDS
 from trg_blender.engine.scene_arrays import Material as MaterialRow
@@ -42,9 +43,11 @@ def make_bsdf(count: int, view, outside: bool = True, **values) -> Bsdf:
     wo = np.tile(normalize(np.array(view, float)), (count, 1))
     ng = np.tile([0.0, 0.0, 1.0], (count, 1))
     ns = np.tile(normalize(np.array([0.1, 0.05, 1.0])), (count, 1))
-    return build_bsdf(
-        Surface(np.zeros((count, 3)), wo, ng, ns, np.full(count, outside), material, np.full(count, 1e-6))
-    )
+    place, row = np.zeros((count, 3)), np.zeros(count, dtype=np.int64)
+    zero = np.zeros(count)
+    points = Points(row, zero, zero, place[:, :2], place, ns, ng, wo, np.full(count, outside))
+    surface = Surface(place, wo, ng, ns, np.full(count, outside), material, np.full(count, 1e-6), row, points)
+    return build_bsdf(surface)
 
 
 def sphere_grid(rows: int) -> np.ndarray:

@@ -236,10 +236,11 @@ def evaluate_bsdf(bsdf: Bsdf, wi_world: Float64) -> tuple[Float64, Float64]:
     value, pdf = np.zeros((len(wi), 3)), np.zeros(len(wi))
     up = above_geometry & (wi[:, 2] > 0.0)
     down = ~above_geometry & (wi[:, 2] < 0.0)
+    turned = is_turned(bsdf)
     for rows, lobes in (
         (up & ~bsdf.ideal, evaluate_reflection),
         (up & (bsdf.coat_alpha >= IDEAL_ALPHA), evaluate_coat),
-        (up, evaluate_diffuse),
+        (np.where(turned, down, up), evaluate_diffuse),
         (down & ~bsdf.straight, evaluate_refraction),
     ):
         lobe_value, lobe_pdf = lobes(bsdf, wi)
@@ -285,6 +286,7 @@ def evaluate_coat(bsdf: Bsdf, wi: Float64) -> tuple[Float64, Float64]:
 def evaluate_diffuse(bsdf: Bsdf, wi: Float64) -> tuple[Float64, Float64]:
     """The diffuse base, and the sheen over everything."""
     material = bsdf.surface.material
+    wi = flipped(wi, is_turned(bsdf))
     base = rough_diffuse(material.base, material.column["diffuse_roughness"], bsdf.wo, wi)
     fibres = eval_sheen(bsdf.sheen, wi) if np.any(bsdf.weights.sheen) else np.zeros(len(wi))
     value = bsdf.weights.diffuse * base + bsdf.weights.sheen * fibres[:, None]
@@ -308,16 +310,28 @@ def evaluate_refraction(bsdf: Bsdf, wi: Float64) -> tuple[Float64, Float64]:
     return value, np.where(bends, pdf, 0.0)
 
 
+def is_turned(bsdf: Bsdf) -> NDArray[np.bool_]:
+    """(n,) whether the diffuse base shines on the far side."""
+    return bsdf.surface.material.column["translucent"] > 0.0
+
+
+def flipped(wi: Float64, rows: NDArray[np.bool_]) -> Float64:
+    """Local directions, those of `rows` mirrored to the other side."""
+    return wi * np.where(rows[:, None], (1.0, 1.0, -1.0), 1.0)
+
+
 def sample_bsdf(bsdf: Bsdf, rng: np.random.Generator) -> Scattered:
     """Picks one lobe a path and goes on along it; weight and density are those of the whole mixture."""
     count = len(bsdf.wo)
     lobe = np.minimum((rng.random(count)[:, None] >= np.cumsum(bsdf.choice, axis=1)).sum(axis=1), SHEEN)
     wi = draw_directions(bsdf, lobe, rng)
+    wi = flipped(wi, (lobe == DIFFUSE) & is_turned(bsdf))
     wi_world = normalize(bsdf.frame.to_world(wi))
     # Deltas carry their own weight, everything else that of the mixture.
     value, pdf = evaluate_bsdf(bsdf, wi_world)
     # A facet may send light through the surface: its lobe ends there, the density knows nothing of it.
-    pdf = np.where(np.where(lobe == GLASS_REFRACTION, -wi[:, 2], wi[:, 2]) > 0.0, pdf, 0.0)
+    down = (lobe == GLASS_REFRACTION) | ((lobe == DIFFUSE) & is_turned(bsdf))
+    pdf = np.where(np.where(down, -wi[:, 2], wi[:, 2]) > 0.0, pdf, 0.0)
     weight = value / np.where(pdf > 0.0, pdf, np.inf)[:, None]
     delta = bsdf.ideal & (lobe < DIFFUSE) | (bsdf.straight & (lobe == GLASS_REFRACTION))
     delta |= (lobe == COAT) & (bsdf.coat_alpha < IDEAL_ALPHA)

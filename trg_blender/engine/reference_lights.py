@@ -39,6 +39,8 @@ class LightHit:
     """(n, 3), 0 beside the light or behind the surface that the ray hits"""
     pdf: Float64
     """(n,) with which `sample_light` would have chosen the direction"""
+    distance: Float64
+    """(n,) anything where it is not seen"""
 
 
 def sample_light(light: Light, points: Float64, rng: np.random.Generator) -> LightSample:
@@ -109,7 +111,7 @@ def hit_sun(light: Light, direction: Float64, t_surface: Float64) -> LightHit:
     chord = direction - towards
     inside = np.isinf(t_surface) & (0.5 * dot(chord, chord) <= one_minus_cos)
     pdf = np.where(inside, 1.0 / cone_solid_angle(one_minus_cos), 0.0)
-    return LightHit(inside[:, None] * color_of(light) * per_irradiance, pdf)
+    return LightHit(inside[:, None] * color_of(light) * per_irradiance, pdf, np.full(len(pdf), np.inf))
 
 
 # Points and spots
@@ -166,7 +168,7 @@ def hit_soft(light: Light, origin: Float64, direction: Float64, t_surface: Float
     t = np.where(along > 0.0, away * away / np.where(along > 0.0, along, 1.0), np.inf)
     seen = (t < t_surface) & (t * t - away * away <= light.radius**2)
     pdf = np.where(seen, t**3 / (away * np.pi * light.radius**2), 0.0)
-    return LightHit(np.where(seen[:, None], sphere_radiance(light, direction), 0.0), pdf)
+    return LightHit(np.where(seen[:, None], sphere_radiance(light, direction), 0.0), pdf, t)
 
 
 def attenuation(light: Light, distance: Float64) -> Float64:
@@ -204,7 +206,7 @@ def hit_bulb(light: Light, origin: Float64, direction: Float64, t_surface: Float
     seen = (distance > light.radius) & (half_chord_squared >= -1e-9 * light.radius**2) & (near > 0.0)
     seen &= near < t_surface
     pdf = np.where(seen, 1.0 / cone_solid_angle(np.maximum(sphere_cone(light, distance), 1e-300)), 0.0)
-    return LightHit(np.where(seen[:, None], sphere_radiance(light, direction), 0.0), pdf)
+    return LightHit(np.where(seen[:, None], sphere_radiance(light, direction), 0.0), pdf, near)
 
 
 # Areas
@@ -259,7 +261,7 @@ def hit_area(light: Light, origin: Float64, direction: Float64, t_surface: Float
         within = (np.abs(a) <= 1.0) & (np.abs(b) <= 1.0)
     seen = within & (facing > 0.0) & (t > 0.0) & (t < t_surface)
     pdf = np.where(seen, t * t / np.maximum(facing * area, 1e-300), 0.0)
-    return LightHit((seen * spread_share(light, facing))[:, None] * color_of(light), pdf)
+    return LightHit((seen * spread_share(light, facing))[:, None] * color_of(light), pdf, t)
 
 
 def in_axes(place: Float64, u: Float64, v: Float64) -> tuple[Float64, Float64]:

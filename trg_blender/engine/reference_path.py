@@ -12,10 +12,20 @@ from numpy.typing import NDArray
 
 from .reference_bsdf import Bsdf, Scattered, build_bsdf, evaluate_bsdf, sample_bsdf
 from .reference_camera import CameraRays
+from .reference_closures import choose_closures
 from .reference_emission import Glow, build_glow, pdf_glow, sample_glow
 from .reference_environment import Sky, build_sky, evaluate_sky, pdf_sky, sample_sky
 from .reference_lights import LightSample, hit_light, sample_light
-from .reference_math import mis_weight
+from .reference_math import dot, mis_weight
+from .reference_media import (
+    Stack,
+    absorption_of,
+    cross_surface,
+    find_beginnings,
+    light_left,
+    no_media,
+    row_absorption,
+)
 from .reference_passes import PassNotes, make_notes, note_shadow, note_source, note_vertex, split_bsdf
 from .reference_scene import FAR, MISS, Hits, Rays, TracedScene, build_traced_scene
 from .reference_sheets import has_sheets, pass_sheets, transmittance
@@ -38,6 +48,8 @@ class World:
     sky: Sky | None = None
     sheets: bool = False
     """whether any material lets light straight through"""
+    media: bool = False
+    """whether any surface encloses something that absorbs"""
 
 
 @dataclass(slots=True)
@@ -71,6 +83,7 @@ class Paths:
     pdf: Float64
     """(n,) density of the direction by the surface it left; inf after a delta and from the camera"""
     index: NDArray[np.int64]
+    media: Stack
 
 
 def build_world(scene: SceneArrays, width: int) -> World:
@@ -79,9 +92,9 @@ def build_world(scene: SceneArrays, width: int) -> World:
     materials = build_material_table(scene, traced.triangles, width)
     glow = build_glow(traced.triangles, materials)
     sky = None if scene.environment is None else build_sky(scene.environment)
-    return World(
-        scene, traced, materials, glow, np.asarray(scene.world, dtype=np.float64), sky, has_sheets(materials)
-    )
+    media = bool(np.any(row_absorption(materials) > 0.0))
+    color = np.asarray(scene.world, dtype=np.float64)
+    return World(scene, traced, materials, glow, color, sky, has_sheets(materials), media)
 
 
 def trace_paths(
@@ -95,7 +108,7 @@ def trace_paths(
     count = len(camera.near)
     estimate = Estimate(np.zeros((count, 3)), np.zeros(count, dtype=bool), np.zeros((count, 3)))
     estimate.notes = make_notes(count, passes, world.scene.pass_data)
-    paths = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count))
+    paths = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count), no_media(count))
     for segment in range(max_bounces + 2):
         hits = world.traced.intersect(paths.rays)
         if world.sheets:
@@ -106,7 +119,7 @@ def trace_paths(
         else:
             estimate.rays.bounce += len(paths.index)
             collect_lights(world, paths, hits, estimate, segment)
-        collect_world(world, paths, hits, estimate, segment)
+        collect_world(world, outdoors(world, paths), hits, estimate, segment)
         paths, hits = keep(paths, hits, hits.triangle != MISS)
         if len(paths.index) == 0:
             break
@@ -114,10 +127,13 @@ def trace_paths(
         if segment == 0:
             estimate.hit[paths.index] = True
             estimate.normal[paths.index] = surface.ns
+        paths = absorb(world, paths, hits, surface)
         collect_emission(world, paths, hits, surface, (estimate, segment))
         # The ray after the last scattering only collects emission.
         if segment == max_bounces + 1:
             break
+        surface, scale = choose_closures(surface, world.materials, rng)
+        paths = replace(paths, throughput=paths.throughput * scale[:, None])
         bsdf = build_bsdf(surface)
         if segment == 0 and estimate.notes is not None:
             note_vertex(estimate.notes, paths.index, bsdf, hits.t + camera.near[paths.index])
@@ -125,15 +141,42 @@ def trace_paths(
         scattered = sample_bsdf(bsdf, rng)
         if segment == 0 and estimate.notes is not None:
             estimate.notes.shares[paths.index] = split_bsdf(bsdf, scattered.wi, np.isinf(scattered.pdf))
-        paths = go_on(paths, bsdf.surface, scattered, rng, roulette=segment >= ROULETTE_START)
+        paths = replace(paths, media=beyond(world, paths, surface, scattered.wi))
+        paths = go_on(paths, surface, scattered, rng, roulette=segment >= ROULETTE_START)
     return estimate
 
 
 def keep(paths: Paths, hits: Hits, rows: NDArray[np.bool_]) -> tuple[Paths, Hits]:
     """The paths and hits of some rows only."""
     rays = Rays(paths.rays.origin[rows], paths.rays.direction[rows], paths.rays.far[rows])
-    kept = Paths(rays, paths.throughput[rows], paths.pdf[rows], paths.index[rows])
+    kept = Paths(rays, paths.throughput[rows], paths.pdf[rows], paths.index[rows], paths.media[rows])
     return kept, Hits(hits.triangle[rows], hits.t[rows], hits.u[rows], hits.v[rows])
+
+
+def outdoors(world: World, paths: Paths) -> Paths:
+    """The paths as what lies endlessly far sees them: black where they never left a medium."""
+    if not world.media:
+        return paths
+    far = light_left(absorption_of(world.materials, paths.media), np.full(len(paths.index), np.inf))
+    return replace(paths, throughput=paths.throughput * far)
+
+
+def absorb(world: World, paths: Paths, hits: Hits, surface: Surface) -> Paths:
+    """The paths at the surface that they met, dimmed by what filled the way."""
+    if not world.media:
+        return paths
+    media = find_beginnings(world.materials, paths.media, surface)
+    left = light_left(absorption_of(world.materials, media), hits.t)
+    return replace(paths, throughput=paths.throughput * left, media=media)
+
+
+def beyond(world: World, paths: Paths, surface: Surface, wi: Float64) -> Stack:
+    """What paths are in after they left `surface` along `wi`."""
+    if not world.media:
+        return paths.media
+    passes = dot(wi, surface.ng) < 0.0
+    crossed = cross_surface(world.materials, paths.media, surface.row, surface.outside)
+    return np.where(passes[:, None], crossed, paths.media)
 
 
 def collect_world(world: World, paths: Paths, hits: Hits, estimate: Estimate, segment: int) -> None:
@@ -168,6 +211,9 @@ def collect_lights(world: World, paths: Paths, hits: Hits, estimate: Estimate, s
         seen = hit_light(light, paths.rays.origin, paths.rays.direction, hits.t)
         if seen is not None:
             weight = mis_weight(paths.pdf, seen.pdf)[:, None]
+            if world.media:
+                absorption = absorption_of(world.materials, paths.media)
+                weight = weight * light_left(absorption, seen.distance)
             light_seen = paths.throughput * seen.radiance * weight
             add_light(estimate, paths.index, light_seen, segment, "emission")
 
@@ -206,6 +252,9 @@ def add_light_sample(
     estimate, segment = place
     value, pdf = evaluate_bsdf(bsdf, sample.wi)
     weight = mis_weight(sample.pdf, pdf)[:, None]
+    if world.media:
+        media = beyond(world, paths, bsdf.surface, sample.wi)
+        weight = weight * light_left(absorption_of(world.materials, media), sample.distance)
     light = paths.throughput * value * sample.radiance * weight
     rows = np.any(light != 0.0, axis=1)
     surface = bsdf.surface
@@ -237,4 +286,4 @@ def go_on(
         throughput = throughput / survival[:, None]
     start = surface.leave(scattered.wi)[alive]
     rays = Rays(start, scattered.wi[alive], np.full(int(alive.sum()), FAR))
-    return Paths(rays, throughput[alive], scattered.pdf[alive], paths.index[alive])
+    return Paths(rays, throughput[alive], scattered.pdf[alive], paths.index[alive], paths.media[alive])

@@ -72,6 +72,9 @@ class Surface:
     material: Material
     epsilon: Float64
     """(n,) distance by which rays start off the surface"""
+    row: NDArray[np.int64]
+    """(n,) row of the material table, where it is a mixture that of the whole"""
+    points: Points
 
     def leave(self, wi: Float64) -> Float64:
         """Where a ray along `wi` starts: just off the surface, on the side it goes to."""
@@ -89,9 +92,12 @@ def build_material_table(scene: SceneArrays, triangles: Triangles, width: int) -
     return MaterialTable(columns, space, images, Programs(scene.programs))
 
 
-def evaluate_material(table: MaterialTable, points: Points) -> Material:
-    """The material at each point."""
-    index = table.space.triangles.material[points.triangle]
+def evaluate_material(
+    table: MaterialTable, points: Points, index: NDArray[np.int64] | None = None
+) -> Material:
+    """The material at each point; that of rows `index` (n,) where they are given."""
+    if index is None:
+        index = table.space.triangles.material[points.triangle]
     column = {name: values[index] for name, values in table.columns.items()}
     base = np.stack([column["base_r"], column["base_g"], column["base_b"]], axis=1)
     emission = np.stack([column["emission_r"], column["emission_g"], column["emission_b"]], axis=1)
@@ -167,11 +173,11 @@ def build_points(triangles: Triangles, hits: Hits, wo: Float64) -> Points:
     return Points(index, b1, b2, uv, position, normal, flat, wo, outside)
 
 
-def bent_normals(table: MaterialTable, points: Points) -> Float64:
-    """(n, 3) shading normals: those that materials ask for where the viewer sees them, else the smooth
+def bent_normals(table: MaterialTable, points: Points, row: NDArray[np.int64]) -> Float64:
+    """(n, 3) shading normals: those that materials `row` (n,) ask for where they can be seen, else the smooth
     ones, else the geometric ones."""
     ns = np.where((dot(points.wo, points.normal) > GRAZING)[:, None], points.normal, points.flat)
-    wanted = table.columns["normal_texture"][table.space.triangles.material[points.triangle]]
+    wanted = table.columns["normal_texture"][row]
     bent = normalize(textured(table, wanted, points, np.zeros_like(ns)))
     return np.where((dot(points.wo, bent) > GRAZING)[:, None], bent, ns)
 
@@ -180,9 +186,10 @@ def build_surface(table: MaterialTable, hits: Hits, wo: Float64) -> Surface:
     """The surface at `hits`, which must all have hit."""
     triangles = table.space.triangles
     points = build_points(triangles, hits, wo)
-    ns, material = bent_normals(table, points), evaluate_material(table, points)
+    row = triangles.material[hits.triangle]
+    ns, material = bent_normals(table, points, row), evaluate_material(table, points, row)
     # Embree works in float32: its error grows with the coordinates and with the size of the triangle.
     corners = triangles.corners[hits.triangle]
     edge = np.max(np.abs(corners[:, 1:] - corners[:, :1]), axis=(1, 2))
     epsilon = 1e-7 + 2e-6 * np.max(np.abs(points.position), axis=1) + 4e-7 * edge
-    return Surface(points.position, wo, points.flat, ns, points.outside, material, epsilon)
+    return Surface(points.position, wo, points.flat, ns, points.outside, material, epsilon, row, points)

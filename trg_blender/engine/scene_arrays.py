@@ -190,6 +190,18 @@ class Material:
     through_g: float = 1.0
     through_b: float = 1.0
     alpha_texture: int = -1
+    translucent: int = 0
+    """1: the diffuse base shines on the side away from the light instead"""
+    mix_first: int = -1
+    """first of the `mix_count` rows that this one is a mixture of, whose own lobes are then unused"""
+    mix_count: int = 0
+    weight: float = 1.0
+    """of a row that is part of a mixture"""
+    weight_texture: int = -1
+    absorption_r: float = 0.0
+    absorption_g: float = 0.0
+    absorption_b: float = 0.0
+    """per metre, of what the surface encloses"""
 
 
 @dataclass(slots=True)

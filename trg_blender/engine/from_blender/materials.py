@@ -6,7 +6,7 @@ docs/architecture.md section 4 is rendered as the nearest thing and said in one 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import bpy
 
@@ -15,6 +15,7 @@ from .identities import identity_of_material
 from .shaders import ShaderReader
 from .sockets import active_tree
 from .textures import TextureTable
+from .volumes import read_absorption
 
 
 @dataclass(slots=True)
@@ -39,9 +40,12 @@ class MaterialTable:
         if key not in self._index:
             reader = ShaderReader("" if material is None else f"material {material.name!r}", self.textures)
             self._index[key] = len(self.rows)
-            self.rows.append(_read_material(material, reader))
-            self.identities.append(identity_of_material(material))
-            self._finish(len(self.rows) - 1, reader)
+            row, parts = _read_material(material, reader)
+            if parts:
+                row = replace(row, mix_first=len(self.rows) + 1, mix_count=len(parts))
+            self.rows += [row, *parts]
+            self.identities += [identity_of_material(material)] * (1 + len(parts))
+            self._finish(self._index[key], reader)
         return self._index[key]
 
     def attributes_of(self, slot_rows: tuple[int, ...]) -> tuple[int, ...]:
@@ -56,18 +60,24 @@ class MaterialTable:
             self.warnings.append(f"{reader.owner}: not supported, nearest used: {'; '.join(reader.missed)}")
 
 
-def _read_material(material: bpy.types.Material | None, reader: ShaderReader) -> Material:
+def _read_material(
+    material: bpy.types.Material | None, reader: ShaderReader
+) -> tuple[Material, list[Material]]:
+    """The row of a material, and the rows that it is a mixture of."""
     if material is None:
-        return Material(specular=0.0)
+        return Material(specular=0.0), []
     tree = active_tree(material)
     if tree is None:
         red, green, blue = material.diffuse_color[:3]
-        return Material(red, green, blue, specular=0.0)
+        return Material(red, green, blue, specular=0.0), []
     output = tree.get_output_node("CYCLES")
     if output is None:
         reader.miss("a node tree without a Material Output")
-        return Material(0.0, 0.0, 0.0, specular=0.0)
-    for name in ("Volume", "Displacement"):
-        if output.inputs[name].is_linked:
-            reader.miss(f"the {name} socket of node {output.name!r}")
-    return reader.read_surface(output.inputs["Surface"])
+        return Material(0.0, 0.0, 0.0, specular=0.0), []
+    if output.inputs["Displacement"].is_linked:
+        reader.miss(f"the Displacement socket of node {output.name!r}")
+    row, parts = reader.read_surface(output.inputs["Surface"])
+    red, green, blue = read_absorption(reader, output)
+    if max(red, green, blue) > 0.0 and (row.alpha < 1.0 or row.alpha_texture >= 0):
+        reader.miss("absorption behind a surface that is partly transparent")
+    return replace(row, absorption_r=red, absorption_g=green, absorption_b=blue), parts

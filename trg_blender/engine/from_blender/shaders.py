@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import bpy
 
 from ..scene_arrays import INTERFACES, Color, Material
+from .mixtures import Factor, Part, mix_parts
 from .sockets import as_color, as_number, feeding_socket, input_socket
 from .textures import TextureTable
 
@@ -31,21 +32,49 @@ class ShaderReader:
         if what not in self.missed:
             self.missed.append(what)
 
-    def read_surface(self, socket: bpy.types.NodeSocket | None, depth: int = 0) -> Material:
-        """The row for the shader plugged into `socket`; black when nothing is, as in Cycles."""
+    def read_surface(self, socket: bpy.types.NodeSocket | None) -> tuple[Material, list[Material]]:
+        """The row for the shader plugged into `socket`, black when nothing is, as in Cycles; and the rows
+        that it is a mixture of."""
+        return mix_parts(self._parts(socket, 1.0, (), 0), self)
+
+    def _parts(
+        self, socket: bpy.types.NodeSocket | None, share: float, factors: tuple[Factor, ...], depth: int
+    ) -> list[Part]:
+        """The shaders behind `socket`, each with its weight."""
         source = feeding_socket(socket) if socket is not None else None
         if source is None or depth > 64:
-            return BLACK
+            return [Part(BLACK, None, share, factors)]
         node = source.node
-        if node.type == "MIX_SHADER":
-            return self._mix(node, depth)
         if node.type == "ADD_SHADER":
-            return self._add(node, depth)
+            return [part for one in node.inputs for part in self._parts(one, share, factors, depth + 1)]
+        if node.type == "MIX_SHADER":
+            value, texture = self.number(node, node.inputs[0].name)
+            shares, both = (1.0, 1.0), ((Factor(node.inputs[0], True),), (Factor(node.inputs[0], False),))
+            if texture < 0:
+                shares, both = (1.0 - _share(value), _share(value)), ((), ())
+            return [
+                part
+                for one, own, by in zip(node.inputs[1:3], shares, both, strict=True)
+                if own > 0.0
+                for part in self._parts(one, share * own, (*factors, *by), depth + 1)
+            ]
         read = _READERS.get(node.type)
         if read is None:
             self.miss(f"node {node.name!r} ({node.bl_label or node.type})")
-            return Material(specular=0.0)
-        return read(self, node)
+            return [Part(Material(specular=0.0), node, share, factors)]
+        return [Part(read(self, node), node, share, factors)]
+
+    def glow(self, node: bpy.types.Node, color_name: str, strength_name: str) -> tuple[Color, int]:
+        """Emission, colour times strength, and the row of the texture that it is multiplied by."""
+        color, texture = self.color(node, color_name)
+        strength, strength_texture = self.number(node, strength_name)
+        if strength_texture < 0:
+            red, green, blue = (max(channel * strength, 0.0) for channel in color)
+            return (red, green, blue), texture if max(red, green, blue) > 0.0 else -1
+        product = self.textures.product(
+            (input_socket(node, color_name), input_socket(node, strength_name)), self.owner, self.attributes
+        )
+        return (1.0, 1.0, 1.0), product
 
     def color(self, node: bpy.types.Node, *names: str) -> tuple[Color, int]:
         """Colour of an input and the row of the texture that replaces it (-1: none)."""
@@ -81,58 +110,11 @@ class ShaderReader:
             return -1
         return self.textures.read(socket, self.owner, self.attributes)[1]
 
-    def _add(self, node: bpy.types.Node, depth: int) -> Material:
-        """Emission adds exactly; of two scattering shaders the first is kept."""
-        first, second = (self.read_surface(socket, depth + 1) for socket in node.inputs)
-        if not _scatters(first):
-            first, second = second, first
-        if _scatters(second) or (first.emission_texture >= 0 and second.emission_texture >= 0):
-            self.miss(f"the second shader of node {node.name!r} (Add Shader)")
-            return first
-        return replace(
-            first,
-            emission_r=first.emission_r + second.emission_r,
-            emission_g=first.emission_g + second.emission_g,
-            emission_b=first.emission_b + second.emission_b,
-            emission_texture=max(first.emission_texture, second.emission_texture),
-        )
-
-    def _mix(self, node: bpy.types.Node, depth: int) -> Material:
-        """Exact at factors 0 and 1 and where one shader is Transparent; else the weightier shader."""
-        factor = min(max(self.plain_number(node, node.inputs[0].name), 0.0), 1.0)
-        if not 0.0 < factor < 1.0:
-            return self.read_surface(node.inputs[1 if factor < 0.5 else 2], depth + 1)
-        rows = [self.read_surface(socket, depth + 1) for socket in node.inputs[1:3]]
-        shares = [1.0 - factor, factor]
-        if rows[0].alpha == 0.0 or rows[1].alpha == 0.0:
-            solid = 1 if rows[0].alpha == 0.0 else 0
-            if rows[solid].alpha_texture < 0:
-                return _partly_there(rows[solid], shares[solid], rows[1 - solid])
-        self.miss(f"the lighter shader of node {node.name!r} (Mix Shader)")
-        return rows[0 if factor < 0.5 else 1]
-
-
-def _partly_there(solid: Material, share: float, clear: Material) -> Material:
-    """`share` of `solid`, the rest of `clear`, which is a Transparent BSDF."""
-    alpha = share * solid.alpha
-    own = share * (1.0 - solid.alpha)
-    passed = [
-        own * getattr(solid, name) + (1.0 - share) * getattr(clear, name)
-        for name in ("through_r", "through_g", "through_b")
-    ]
-    red, green, blue = (min(value / (1.0 - alpha), 1.0) for value in passed)
-    return replace(solid, alpha=alpha, through_r=red, through_g=green, through_b=blue)
-
-
-def _scatters(row: Material) -> bool:
-    has_base = row.base_texture >= 0 or row.base_r > 0 or row.base_g > 0 or row.base_b > 0
-    has_sheen = max(row.sheen_r, row.sheen_g, row.sheen_b) > 0
-    return has_base or row.specular > 0 or row.alpha < 1 or has_sheen
-
 
 def _diffuse(reader: ShaderReader, node: bpy.types.Node) -> Material:
     base, texture = reader.color(node, "Color")
-    roughness = _share(reader.plain_number(node, "Roughness"))
+    rough = node.type == "BSDF_DIFFUSE"
+    roughness = _share(reader.plain_number(node, "Roughness")) if rough else 0.0
     return Material(
         *base,
         specular=0.0,
@@ -224,12 +206,14 @@ def _sheen(reader: ShaderReader, node: bpy.types.Node) -> Material:
 
 
 def _emission(reader: ShaderReader, node: bpy.types.Node) -> Material:
-    color, texture = reader.color(node, "Color")
-    strength = reader.plain_number(node, "Strength")
-    glow = [channel * strength for channel in color]
+    glow, texture = reader.glow(node, "Color", "Strength")
     return replace(
         BLACK, emission_r=glow[0], emission_g=glow[1], emission_b=glow[2], emission_texture=texture
     )
+
+
+def _translucent(reader: ShaderReader, node: bpy.types.Node) -> Material:
+    return replace(_diffuse(reader, node), translucent=1)
 
 
 def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
@@ -240,8 +224,7 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
     base, base_texture = reader.color(node, "Base Color")
     roughness, roughness_texture = reader.number(node, "Roughness")
     metallic, metallic_texture = reader.number(node, "Metallic")
-    emission, emission_texture = reader.color(node, "Emission Color")
-    strength = reader.plain_number(node, "Emission Strength")
+    emission, emission_texture = reader.glow(node, "Emission Color", "Emission Strength")
     alpha, alpha_texture = reader.number(node, "Alpha")
     tint, _ = reader.color(node, "Specular Tint")
     return replace(
@@ -254,13 +237,13 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
         ior=_safe_ior(reader.plain_number(node, "IOR")),
         specular=max(2.0 * reader.plain_number(node, "Specular IOR Level"), 0.0),
         transmission=_share(reader.plain_number(node, "Transmission Weight")),
-        emission_r=emission[0] * strength,
-        emission_g=emission[1] * strength,
-        emission_b=emission[2] * strength,
+        emission_r=emission[0],
+        emission_g=emission[1],
+        emission_b=emission[2],
         base_texture=base_texture,
         roughness_texture=roughness_texture,
         metallic_texture=metallic_texture,
-        emission_texture=emission_texture if strength > 0 else -1,
+        emission_texture=emission_texture,
         specular_tint_r=max(tint[0], 0.0),
         specular_tint_g=max(tint[1], 0.0),
         specular_tint_b=max(tint[2], 0.0),
@@ -317,6 +300,7 @@ _READERS: dict[str, Callable[[ShaderReader, bpy.types.Node], Material]] = {
     "BSDF_GLASS": _glass,
     "BSDF_REFRACTION": _glass,
     "BSDF_SHEEN": _sheen,
+    "BSDF_TRANSLUCENT": _translucent,
     "BSDF_TRANSPARENT": _transparent,
     "EMISSION": _emission,
 }

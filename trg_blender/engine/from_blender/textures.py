@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 
 import bpy
 
-from ..program_builder import ProgramPool, ProgramTooLargeError
+from ..program_builder import ProgramPool, ProgramTooLargeError, Value
 from ..scene_arrays import Texture
 from .image_reader import ImagePool, multiplies_alpha
 from .image_texture import image_row, plain_row
@@ -54,6 +54,23 @@ class TextureTable:
             self.warnings.append(f"{owner}: the nodes behind {socket.name} are too many, its value is used")
             return graph.own_value(socket).constant, -1
         return None, self.add(Texture(-1, program=program))
+
+    def product(
+        self, sockets: tuple[bpy.types.NodeSocket | None, ...], owner: str, used: set[int]
+    ) -> int:
+        """Row of the texture that is the product of inputs, colours or numbers; -1 where it is too large."""
+        graph = GraphReader(self, owner, used)
+        value = Value((1.0, 1.0, 1.0))
+        for socket in sockets:
+            if socket is not None:
+                factor = graph.input(socket)
+                wide = factor if socket.type == "RGBA" else graph.spread(factor)
+                value = graph.vector_math("MULTIPLY", value, wide)
+        try:
+            return self.add(Texture(-1, program=self.programs.add(graph.builder.steps, value)))
+        except ProgramTooLargeError:
+            self.warnings.append(f"{owner}: the nodes behind its emission are too many, it is left out")
+            return -1
 
     def add(self, row: Texture) -> int:
         if row not in self.textures:
