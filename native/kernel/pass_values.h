@@ -6,8 +6,10 @@
 
 namespace trg {
 
-/// Rougher facets than this count as diffuse for the denoising features.
-constexpr float kFeatureAlpha = 0.075f;
+/// Facets count as diffuse for the denoising features the more, the nearer their alpha is to this,
+/// and a surface writes its own features the more, the nearer its diffuse share is to the other; as
+/// Cycles 5 does. All of its other light passes on to what its mirrors show.
+constexpr float kFeatureAlpha = 0.15f, kFeatureShare = 0.5f;
 constexpr uint32_t kAmbientDimension = 0x5a000000u;
 
 TRG_FN void add_to_pass(PassQueues& passes, int32_t at, int32_t path, Vec3 value) {
@@ -72,26 +74,38 @@ TRG_FN void add_ambient_ray(const RenderView& view, const Vertex& v, ShadowQueue
     queue->states[queue->count++] = {{1.0f, 1.0f, 1.0f}, ~v.path};
 }
 
-/// Albedo and normal of the first surface that is not a mirror; mirrors pass them on, coloured.
+/// 0 at `x` = 0, 1 from `x` = `end` on, smooth between.
+TRG_FN float smooth_step(float x, float end) {
+    const float t = clamp01(x / end);
+    return t * t * (3.0f - 2.0f * t);
+}
+
+TRG_FN float mean_of(Vec3 v) {
+    return (v.x + v.y + v.z) * (1.0f / 3.0f);
+}
+
+/// Albedo and normal of surfaces as far as they are not mirrors; mirrors pass them on, coloured.
 TRG_FN void note_features(const RenderView& view, PassQueues& passes, const Vertex& v,
                           const LobeColors& colors) {
     Vec3& feature = passes.states[v.path].feature;
     const PassLayout& layout = view.passes.layout;
-    const Vec3 facets = colors.glossy + colors.transmission;
-    const bool rough = v.bsdf.alpha > kFeatureAlpha;
-    const Vec3 broad = rough ? colors.diffuse + facets : colors.diffuse;
-    if (luminance(broad) * 4.0f <= luminance(colors.diffuse + facets)) {
-        feature = feature * facets;
-        return;
-    }
+    const Vec3 facets = colors.glossy - colors.coat + colors.transmission;
+    const float rough = smooth_step(v.bsdf.smooth ? 0.0f : v.bsdf.alpha, kFeatureAlpha);
+    const bool coat_mirrors = !(v.bsdf.p_coat > 0.0f) || v.bsdf.coat_smooth;
+    const float rough_coat = smooth_step(coat_mirrors ? 0.0f : v.bsdf.coat_alpha, kFeatureAlpha);
+    const Vec3 broad = colors.diffuse + facets * rough + colors.coat * rough_coat;
+    const Vec3 sharp = facets * (1.0f - rough) + colors.coat * (1.0f - rough_coat);
+    const float whole = mean_of(broad + sharp);
+    const float share = whole > 0.0f ? smooth_step(mean_of(broad) / whole, kFeatureShare) : 0.0f;
     // In the space of Cycles' camera, which looks along +Z.
     const CameraView& c = view.scene.camera;
     const Vec3 n = v.frame.n;
-    add_to_pass(passes, layout.at[kDenoisingAlbedo], v.path, feature * broad);
+    add_to_pass(passes, layout.at[kDenoisingAlbedo], v.path, feature * broad * share);
     add_to_pass(passes, layout.at[kDenoisingNormal], v.path,
                 Vec3{dot(n, c.pose.axis_x), dot(n, c.pose.axis_y), -dot(n, c.pose.axis_z)} *
-                    luminance(feature));
-    feature = {0.0f, 0.0f, 0.0f};
+                    (share * mean_of(feature)));
+    const Vec3 rest = sharp * (1.0f - share);
+    feature = max_component(rest) > 1e-4f ? feature * rest : Vec3{0.0f, 0.0f, 0.0f};
 }
 
 /// Place and ids of the surface that a camera ray met `distance` away.

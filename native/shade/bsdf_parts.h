@@ -10,9 +10,10 @@ struct ScatterShares {
     Vec3 diffuse, glossy;
 };
 
-/// Albedos seen from `wo`. Diffuse holds the sheen, glossy every reflection.
+/// Albedos seen from `wo`. Diffuse holds the sheen, glossy every reflection, the coat's too.
 struct LobeColors {
     Vec3 diffuse, glossy, transmission;
+    Vec3 coat;
 };
 
 TRG_FN float share_of(float part, float whole) {
@@ -45,20 +46,41 @@ TRG_FN Vec3 gloss_color(const Bsdf& b, const EnergyIndex& index, const float* en
     return gloss_albedo(some, all, b.gloss_shift, b.gloss);
 }
 
-/// Albedos of the mixture of material `m`; metal, coat and interface by Fresnel at the shading
-/// normal, a little of each way of an interface always left: its facets may send light where the
-/// normal itself would not.
+/// Albedo of metal: of its facets that reflect everything, by Fresnel at the shading normal.
+TRG_FN Vec3 metal_color(const Bsdf& b, const EnergyIndex& index, const float* energy) {
+    const Vec3 f = b.metal * fresnel_metal(b.metal_fresnel, b.wo.z);
+    if (b.smooth) return f;
+    return f * look_up_energy(energy + index.facets, index.rows, std::sqrt(b.alpha), b.wo.z).at;
+}
+
+TRG_FN Vec3 coat_color(const Bsdf& b, const EnergyIndex& index, const float* energy) {
+    if (b.coat_smooth) return b.coat * fresnel_dielectric(b.wo.z, b.coat_ior);
+    return b.coat * look_up_energy(energy + index.coat, 1, 0.0f, b.wo.z).at;
+}
+
+/// Adds both ways of the interface, by Fresnel at the shading normal; a little of each is always
+/// left: facets may send light where the normal itself would not.
+TRG_FN void add_glass_colors(const Bsdf& b, const Material& m, const float* energy, LobeColors* c) {
+    const int32_t table = b.eta == m.ior ? m.energy.outside : m.energy.inside;
+    const bool scaled = table >= 0 && !b.smooth && m.multiscatter > 0.0f && b.reflects;
+    const float kept =
+        scaled ? look_up_energy(energy + table, m.energy.rows, std::sqrt(b.alpha), b.wo.z).at
+               : 1.0f;
+    float g;
+    const float f = smaller(larger(split_glass(b, b.wo.z, &g), 1e-3f), 1.0f - 1e-3f);
+    c->glossy = c->glossy + b.glass * glass_reflectance(b, f) * kept;
+    c->transmission = b.glass * glass_transmittance(b, f) * kept;
+}
+
+/// Albedos of the mixture of material `m`.
 TRG_FN LobeColors lobe_colors(const Bsdf& b, const Material& m, const float* energy) {
-    LobeColors c{b.diffuse + b.sheen_weight, {0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}};
-    if (b.p_metal > 0.0f) c.glossy = b.metal * fresnel_metal(b.metal_fresnel, b.wo.z);
+    const Vec3 none{0.0f, 0.0f, 0.0f};
+    LobeColors c{b.diffuse + b.sheen_weight, none, none, none};
+    if (b.p_metal > 0.0f) c.glossy = metal_color(b, m.energy, energy);
     if (b.p_gloss > 0.0f) c.glossy = c.glossy + gloss_color(b, m.energy, energy);
-    if (b.p_coat > 0.0f) c.glossy = c.glossy + b.coat * fresnel_dielectric(b.wo.z, b.coat_ior);
-    if (b.p_glass > 0.0f) {
-        float g;
-        const float f = smaller(larger(split_glass(b, b.wo.z, &g), 1e-3f), 1.0f - 1e-3f);
-        c.glossy = c.glossy + b.glass * glass_reflectance(b, f);
-        c.transmission = b.glass * glass_transmittance(b, f);
-    }
+    if (b.p_coat > 0.0f) c.coat = coat_color(b, m.energy, energy);
+    c.glossy = c.glossy + c.coat;
+    if (b.p_glass > 0.0f) add_glass_colors(b, m, energy, &c);
     return c;
 }
 

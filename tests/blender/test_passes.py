@@ -169,7 +169,7 @@ def test_a_file_has_every_pass_under_blenders_name(cube, tmp_path, levels):
     passes, _ = render_layers(cube, tmp_path / "all.exr")
     expected = {"Combined": "RGBA"}
     for name, each in result.PASSES.items():
-        expected.update({one: each.channels for one in result.layers_of(name, levels)})
+        expected.update(dict.fromkeys(result.layers_of(name, levels), each.channels))
     assert {name: set(channels) for name, channels in passes.items()} == {
         name: set(channels) for name, channels in expected.items()
     }

@@ -11,8 +11,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from .reference_bsdf import Bsdf, build_facets, evaluate_bsdf, evaluate_diffuse, glass_colors
-from .reference_fresnel import fresnel_dielectric
+from .reference_bsdf import Bsdf, build_facets, evaluate_bsdf, evaluate_diffuse, glass_colors, reflects
 from .reference_math import dot
 from .scene_arrays import Float64, PassData
 
@@ -106,15 +105,27 @@ def lobe_colors(bsdf: Bsdf) -> dict[str, Float64]:
     bare = build_facets(material.energy, index, bsdf.gloss.shift, cosine, material.column["multiscatter"])
     gloss = bsdf.gloss.weight * bare.albedo / bare.weight
     gloss = np.where((bsdf.gloss.ior == 1.0)[:, None], 0.0, gloss)
-    coat = bsdf.coat.weight * fresnel_dielectric(cosine, bsdf.coat.ior)[:, None]
+    energy, column = material.energy, material.column
+    coat = energy.albedo("gloss", bsdf.coat.ior, column["coat_roughness"], cosine)[0][:, None]
+    mirrors = energy.albedo("facets", np.ones(len(cosine)), index[1], cosine)[0][:, None]
     reflected, passed = glass_colors(bsdf, cosine)
-    tint = np.sqrt(material.base)
-    glossy = weights.metal * bsdf.metal.at(cosine) + gloss + coat
+    tint, glass = np.sqrt(material.base), weights.glass * kept_by_glass(bsdf)
+    glossy = weights.metal * bsdf.metal.at(cosine) * mirrors + gloss + bsdf.coat.weight * coat
     return {
         "diffuse": weights.diffuse + weights.sheen,
-        "glossy": glossy + weights.glass * np.maximum(reflected, WAY_LEFT),
-        "transmission": weights.glass * np.maximum(passed, WAY_LEFT * tint),
+        "glossy": glossy + glass * np.maximum(reflected, WAY_LEFT),
+        "transmission": glass * np.maximum(passed, WAY_LEFT * tint),
     }
+
+
+def kept_by_glass(bsdf: Bsdf) -> Float64:
+    """(n, 1) of light that the interface keeps by single scattering, where its energy factor adds the rest."""
+    material, kept = bsdf.surface.material, np.ones(len(bsdf.wo))
+    scaled = (material.column["multiscatter"] > 0.0) & (material.transmission > 0.0) & reflects(material)
+    if np.any(scaled):
+        roughness, cosine = np.sqrt(material.alpha)[scaled], bsdf.wo[scaled, 2]
+        kept[scaled] = material.energy.albedo("glass", bsdf.eta[scaled], roughness, cosine)[0]
+    return kept[:, None]
 
 
 def note_vertex(notes: PassNotes, index: NDArray[np.int64], bsdf: Bsdf, distance: Float64) -> None:
