@@ -10,6 +10,7 @@ namespace trg {
 /// Where a path scatters, ready for light and for the next direction.
 struct Vertex {
     Surface surface;
+    int32_t row;  // of the material, or the one drawn of a mixture
     Vec3 ng;      // geometric normal on the viewer's side
     Frame frame;  // around the shading normal on the viewer's side
     Bsdf bsdf;

@@ -128,7 +128,7 @@ TRG_FN void note_vertex(const RenderView& view, PassQueues& passes, const Vertex
     if (depth > 0 && !wants_feature) return;
     if (layout.colors) {
         const LobeColors colors =
-            lobe_colors(v.bsdf, view.scene.materials[v.surface.material], view.scene.energy);
+            lobe_colors(v.bsdf, view.scene.materials[v.row], view.scene.energy);
         if (depth == 0) {
             add_to_pass(passes, layout.at[kDiffuseColor], v.path, colors.diffuse);
             add_to_pass(passes, layout.at[kGlossyColor], v.path, colors.glossy);

@@ -166,6 +166,7 @@ TRG_FN bool make_vertex(const SceneView& scene, Vec3 wo, Vertex* v, Vec3* normal
         row = choose_closure<F>(&look, sample_uniform2(v->key, v->dimension + kClosure).u, &scale);
         v->throughput = v->throughput * scale;
     }
+    v->row = row;
     *normal = bent_normal<F>(&look, row, *normal);
     if (!(dot(wo, *normal) > 0.0f)) return false;
     v->frame = make_frame(*normal);

@@ -119,7 +119,7 @@ def lobe_colors(bsdf: Bsdf) -> dict[str, Float64]:
 
 
 def kept_by_glass(bsdf: Bsdf) -> Float64:
-    """(n, 1) of light that the interface keeps by single scattering, where its energy factor adds the rest."""
+    """(n, 1) of light that single scattering keeps at the interface, where the energy factor adds to it."""
     material, kept = bsdf.surface.material, np.ones(len(bsdf.wo))
     scaled = (material.column["multiscatter"] > 0.0) & (material.transmission > 0.0) & reflects(material)
     if np.any(scaled):
