@@ -1,10 +1,12 @@
 /// The memory behind the queues of one thread.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "cpu/pass_film.h"
 #include "kernel/path_queues.h"
+#include "cpu/classic_storage.h"
 
 namespace trg {
 
@@ -49,7 +51,13 @@ class QueueStorage {
                 {pass_values_.data(), stride_, pass_states_.data(), pass_hits_.data(),
                  shadow_shares_.data()},
                 times_.data(),
-                ray_times_.data()};
+                ray_times_.data(),
+                classic_ ? &classic_view_ : nullptr};
+    }
+    /// Adds what the classic integrator needs, followed `depth` deep.
+    void add_classic(int32_t depth) {
+        classic_ = std::make_unique<ClassicStorage>(static_cast<int32_t>(rays_.size()), depth);
+        classic_view_ = classic_->view();
     }
     float* depth() { return depth_.data(); }
 
@@ -71,6 +79,8 @@ class QueueStorage {
     std::vector<PassState> pass_states_;
     std::vector<PassHit> pass_hits_;
     std::vector<ScatterShares> shadow_shares_;
+    std::unique_ptr<ClassicStorage> classic_;
+    ClassicQueues classic_view_{};
 };
 
 }  // namespace trg

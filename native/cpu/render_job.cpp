@@ -35,6 +35,12 @@ int32_t choose_tile_size(const PixelRect& rect, int threads) {
     return size;
 }
 
+/// How batches of the classic integrator are cut depends on the tile, and the order of its sums on
+/// that: its tiles are those of four threads, however many there are.
+int tiling_threads(const Scene& scene, const RenderRequest& request) {
+    return scene.tables.is_classic ? 4 : resolve_threads(request.threads);
+}
+
 uint32_t most_per_replicate(int64_t samples) {
     return static_cast<uint32_t>(std::max<int64_t>(samples / kReplicates, 1));
 }
@@ -47,11 +53,11 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
       film_({request.rect, request.passes,
              request.is_allotted() ? std::max<int64_t>(request.samples, kReplicates)
                                    : request.samples,
-             choose_tile_size(request.rect, resolve_threads(request.threads)),
+             choose_tile_size(request.rect, tiling_threads(scene, request)),
              request.is_allotted()}),
       kernels_(choose_kernel_set(
           frozen_.features() | (request.passes.more.needs_kernels() ? kPasses : 0u),
-          scene.world.isa)),
+          scene.world.isa, scene.tables.is_classic)),
       view_{frozen_.view(), request.width,       request.height,
             request.seed,   request.max_bounces, frozen_.passes()},
       work_count_(count_passes(request.samples) * film_.tile_count()),
@@ -65,11 +71,17 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
     const int threads =
         static_cast<int>(std::min<int64_t>(resolve_threads(request.threads), film_.tile_count()));
     const EmitterView& emitters = view_.scene.emitters;
-    const int32_t lights = emitters.always_count + (emitters.pool_count > 0 ? 1 : 0) +
-                           (view_.scene.environment.sampled ? 1 : 0) +
-                           (request.passes.more.has(kAmbientOcclusion) ? 1 : 0);
+    // The classic integrator asks one light at a time.
+    const int32_t lights = scene.tables.is_classic
+                               ? 1
+                               : emitters.always_count + (emitters.pool_count > 0 ? 1 : 0) +
+                                     (view_.scene.environment.sampled ? 1 : 0) +
+                                     (request.passes.more.has(kAmbientOcclusion) ? 1 : 0);
     for (int k = 0; k < threads; ++k)
         storages_.emplace_back(film_.tile_pixels() * kSamplesPerPass, lights, request.passes.more);
+    if (scene.tables.is_classic)
+        for (QueueStorage& storage : storages_)
+            storage.add_classic(std::min(request.max_bounces, kDeepestClassic));
     running_ = threads;
     try {
         for (int k = 0; k < threads; ++k)
@@ -250,6 +262,7 @@ void RenderJob::finish_work(const RayCounts& counts) {
     camera_rays_.fetch_add(counts.camera, std::memory_order_relaxed);
     shadow_rays_.fetch_add(counts.shadow, std::memory_order_relaxed);
     bounce_rays_.fetch_add(counts.bounce, std::memory_order_relaxed);
+    cut_rays_.fetch_add(counts.cut, std::memory_order_relaxed);
 }
 
 void RenderJob::finish_thread() {
@@ -282,9 +295,9 @@ RenderProgress RenderJob::progress() const {
                        ? int64_t{kReplicates} * std::max(most_per_replicate(request_.samples), 1u)
                        : request_.samples;
     state.seconds = std::chrono::duration<double>(until - start_).count();
-    state.rays = {camera_rays_.load(std::memory_order_relaxed),
-                  shadow_rays_.load(std::memory_order_relaxed),
-                  bounce_rays_.load(std::memory_order_relaxed)};
+    state.rays = {
+        camera_rays_.load(std::memory_order_relaxed), shadow_rays_.load(std::memory_order_relaxed),
+        bounce_rays_.load(std::memory_order_relaxed), cut_rays_.load(std::memory_order_relaxed)};
     state.rejected_samples = film_.rejected();
     return state;
 }

@@ -89,7 +89,7 @@ class RenderJob {
     int64_t work_count_;
     std::atomic<int64_t> next_work_{0};
     std::atomic<int64_t> pixel_samples_{0};
-    std::atomic<int64_t> camera_rays_{0}, shadow_rays_{0}, bounce_rays_{0};
+    std::atomic<int64_t> camera_rays_{0}, shadow_rays_{0}, bounce_rays_{0}, cut_rays_{0};
     std::atomic<bool> cancelled_{false};
     std::atomic<StopReason> stopped_by_{StopReason::none};
     Clock::time_point start_;

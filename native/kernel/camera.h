@@ -1,6 +1,7 @@
 /// Camera rays and the first stage of the wavefront.
 #pragma once
 
+#include "kernel/antialiasing.h"
 #include "kernel/path_queues.h"
 
 namespace trg {
@@ -91,7 +92,8 @@ TRG_FN int32_t generate_paths(const RenderView& view, const Chunk& chunk, PathQu
         const uint32_t sample = chunk.first_sample + static_cast<uint32_t>(i % chunk.samples);
         const SampleKey key = make_sample_key(static_cast<uint32_t>(pixel.x),
                                               static_cast<uint32_t>(pixel.y), sample, view.seed);
-        const Sample2 uv = sample_uniform2(key, kPixelDimension);
+        const Sample2 uv = place_in_pixel(view.scene.antialiasing, key, sample,
+                                          sample_uniform2(key, kPixelDimension));
         queues.keys[i] = key;
         const Sample2 lens = view.scene.camera.aperture > 0.0f
                                  ? sample_uniform2(key, kLensDimension)

@@ -17,8 +17,9 @@ struct KernelSet {
                          const std::atomic<bool>& cancelled, RayCounts* counts);
 };
 
-/// The smallest set that serves `features`, compiled for `isa`.
-const KernelSet& choose_kernel_set(uint32_t features, Isa isa);
+/// The smallest set of the path integrator, or of `classic`, that serves `features`, compiled for
+/// `isa`; the largest where none does.
+const KernelSet& choose_kernel_set(uint32_t features, Isa isa, bool classic);
 
 /// Names of all sets, smallest first, separated by spaces.
 const char* kernel_set_names();

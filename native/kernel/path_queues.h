@@ -47,6 +47,7 @@ struct PassQueues {
     PassHit* hits;                 // by path
     ScatterShares* shadow_shares;  // by shadow ray of the first surface
 };
+struct ClassicQueues;
 
 constexpr int32_t kMostMedia = 4;
 
@@ -73,6 +74,7 @@ struct PathQueues {
     PassQueues passes;
     float* times;      // by path, 0 to 1 while the shutter is open; only where something moves
     float* ray_times;  // of the rays that are traced next
+    ClassicQueues* classic;  // null for paths
 };
 
 /// `path` as a state of a path or a shadow ray has it.
@@ -103,6 +105,7 @@ struct RenderView {
 
 struct RayCounts {
     int64_t camera, shadow, bounce;
+    int64_t cut;  // rays of the classic integrator that weighed too little or lay too deep
 };
 
 /// Pairs of dimensions of the sampler: the camera's, then a block for each surface.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "accel/world.h"
+#include "shade/classic_material.h"
 #include "shade/environment.h"
 #include "shade/light_tree.h"
 #include "shade/lights.h"
@@ -74,6 +75,16 @@ struct EmitterView {
 
 enum class CameraKind : int32_t { perspective, orthographic, panorama };
 
+/// The paper's ways of choosing points of a pixel; `even` is random points spread evenly.
+enum class Antialiasing : int32_t { even, none, supersampling, jittering, mfaa };
+
+struct AntialiasingView {
+    Antialiasing kind;
+    uint32_t side;     // of the grid of cells, at least 1
+    uint32_t frame;    // its parity picks the pattern of mfaa
+    bool one_pattern;  // all samples share a pattern; else each replicate has one
+};
+
 struct CameraView {
     CameraKind kind;
     CameraPose pose;                 // of one that moves: in the middle of the shutter
@@ -104,7 +115,12 @@ struct SceneView {
     TextureSet textures;
     const TextureMesh* texture_meshes;  // one a mesh
     const float* randoms;               // one an instance, or null
+    const ClassicMaterial* classic;     // one a material where the classic integrator renders
+    bool classic_passes_light;          // some of them let light through
+    Vec3 ambient;                       // its ambient light
+    AntialiasingView antialiasing;
     const Light* lights;
+    int32_t light_count;
     EmitterView emitters;
     Vec3 background;  // where there is no environment
     EnvironmentView environment;

@@ -6,6 +6,7 @@
 #include "cpu/pixel_error.h"
 #include "py/buffer.h"
 #include "py/scene_object.h"
+#include "scene/classic_table.h"
 
 namespace trg::py {
 
@@ -65,15 +66,15 @@ PyObject* poll_method(PyObject* self, PyObject* args, PyObject* kwargs) {
             state = job_of(self).wait(timeout_s);
         }
         return checked(Py_BuildValue(
-            "{s:O, s:O, s:z, s:L, s:L, s:d, s:L, s:L, s:L, s:L, s:s}", "done", as_bool(state.done),
-            "cancelled", as_bool(state.stopped_by == StopReason::cancel), "stopped_by",
-            name_of(state.stopped_by), "samples", static_cast<long long>(state.samples), "target",
-            static_cast<long long>(state.target), "seconds", state.seconds, "rays_camera",
-            static_cast<long long>(state.rays.camera), "rays_shadow",
-            static_cast<long long>(state.rays.shadow), "rays_bounce",
+            "{s:O, s:O, s:z, s:L, s:L, s:d, s:L, s:L, s:L, s:L, s:L, s:s}", "done",
+            as_bool(state.done), "cancelled", as_bool(state.stopped_by == StopReason::cancel),
+            "stopped_by", name_of(state.stopped_by), "samples",
+            static_cast<long long>(state.samples), "target", static_cast<long long>(state.target),
+            "seconds", state.seconds, "rays_camera", static_cast<long long>(state.rays.camera),
+            "rays_shadow", static_cast<long long>(state.rays.shadow), "rays_bounce",
             static_cast<long long>(state.rays.bounce), "rejected_samples",
-            static_cast<long long>(state.rejected_samples), "kernel_set",
-            job_of(self).kernel_set()));
+            static_cast<long long>(state.rejected_samples), "cut_rays",
+            static_cast<long long>(state.rays.cut), "kernel_set", job_of(self).kernel_set()));
     });
 }
 
@@ -268,6 +269,7 @@ void add_job_type(PyObject* module) {
     for (const PassInfo& pass : kPassTable) passes.push_back(pass.name);
     add_names(module, "PASSES", passes);
     add_names(module, "MATERIAL_FIELDS", kMaterialFields);
+    add_names(module, "CLASSIC_FIELDS", kClassicFields);
     add_names(module, "LIGHT_FIELDS", kLightFields);
     add_names(module, "TEXTURE_FIELDS", kTextureFields);
     add_names(module, "TEXTURE_OPS", kTextureOps);

@@ -1,5 +1,7 @@
 #include "py/scene_object.h"
 
+#include "py/scene_classic.h"
+
 #include <cstring>
 
 #include "py/scene_geometry.h"
@@ -130,6 +132,7 @@ void add_scene_type(PyObject* module) {
     add_methods(type.get(), kSceneUpdateMethods);
     add_methods(type.get(), kSceneQueryMethods);
     add_methods(type.get(), kSceneRenderMethods);
+    add_methods(type.get(), kSceneClassicMethods);
     add_methods(type.get(), kSceneTextureMethods);
     if (PyModule_AddObjectRef(module, "Scene", type.get()) != 0) throw PythonError{};
 }

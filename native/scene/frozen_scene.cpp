@@ -46,12 +46,16 @@ FrozenScene::FrozenScene(const Scene& scene) {
                       t.constants.data()};
     view_.texture_meshes = texture_meshes_.data();
     view_.randoms = data_or_null(scene.randoms);
+    view_.antialiasing = scene.tables.antialiasing;
+    view_.antialiasing.one_pattern = scene.tables.is_classic;
     view_.lights = scene.tables.lights.data();
+    view_.light_count = static_cast<int32_t>(scene.tables.lights.size());
     view_.emitters = view_emitters(emitters_);
     view_.background = scene.tables.background;
     view_.environment = view_environment(scene.tables.environment);
     view_.camera = scene.tables.camera;
     view_.filter = data_or_null(scene.tables.filter);
+    view_classic(scene.tables);
     features_ = find_features(scene);
     view_.see_through = (features_ & kSeeThrough) != 0;
     const PassTables& p = scene.passes;
@@ -80,6 +84,20 @@ void FrozenScene::check_materials(const Scene& scene) const {
             if (index >= textures)
                 throw TableError(
                     "textures: the table was replaced by one too short for the materials");
+}
+
+void FrozenScene::view_classic(const ShadingTables& tables) {
+    // The paper's patterns fill the square of their pixel.
+    if (tables.antialiasing.kind != Antialiasing::even) view_.filter = nullptr;
+    if (!tables.is_classic) return;
+    view_.camera.aperture = 0.0f;
+    if (tables.classic.size() != tables.materials.size())
+        throw TableError("classic: " + std::to_string(tables.classic.size()) + " rows, " +
+                         std::to_string(tables.materials.size()) + " materials");
+    view_.classic = tables.classic.data();
+    view_.ambient = tables.ambient;
+    for (const ClassicMaterial& m : tables.classic)
+        if (max_component(m.refract) > 0.0f) view_.classic_passes_light = true;
 }
 
 void FrozenScene::view_images(const Scene& scene) {

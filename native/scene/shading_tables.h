@@ -24,7 +24,11 @@ extern const std::vector<const char*> kMaterialFields, kLightFields;
 struct ShadingTables {
     TextureTables textures;
     std::vector<Material> materials;
-    EnergyTables energy;  // of the materials
+    EnergyTables energy;                   // of the materials
+    std::vector<ClassicMaterial> classic;  // one a material, for the classic integrator
+    Vec3 ambient{0.0f, 0.0f, 0.0f};
+    bool is_classic = false;
+    AntialiasingView antialiasing{Antialiasing::even, 1, 0, false};
     std::vector<Light> lights;
     Vec3 background{0.0f, 0.0f, 0.0f};
     Environment environment;

@@ -9,7 +9,7 @@ import tomllib
 import pytest
 
 import trg_blender
-from trg_blender.engine import scene_arrays
+from trg_blender.engine import classic_arrays, scene_arrays
 from trg_blender.lang import scene
 
 from .tree import read, syntax_tree
@@ -24,6 +24,11 @@ def test_the_columns_of_a_packed_table_are_the_same_in_both_languages(table: str
     if not hasattr(trg_native, table):
         pytest.fail(f"trg_native has no {table}")
     assert tuple(getattr(trg_native, table)) == getattr(scene_arrays, table)
+
+
+def test_the_columns_of_classic_materials_are_the_same_in_both_languages():
+    trg_native = pytest.importorskip("trg_native", reason="the native core is not built here")
+    assert trg_native.CLASSIC_FIELDS == classic_arrays.CLASSIC_FIELDS
 
 
 @pytest.mark.parametrize("manifest", ["native/pyproject.toml", "blender_manifest.toml"])

@@ -19,6 +19,7 @@ from types import ModuleType
 from typing import Any, TextIO
 
 from .. import cli
+from ..engine.antialiasing import ANTIALIASINGS
 from ..engine.devices import DEVICE_NAMES, INTEGRATORS, Unavailable, require_device
 from ..engine.native import ACCELERATORS
 from ..engine.report import ENDLESS_SAMPLES, with_source
@@ -63,6 +64,8 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add("--device", choices=("auto", *DEVICE_NAMES), help="what traces the rays")
     add("--accel", choices=ACCELERATORS, help="structure that finds the nearest surface")
     add("--integrator", choices=INTEGRATORS, help="how light is gathered")
+    add("--aa", choices=("auto", *ANTIALIASINGS), help="which points of a pixel are sampled")
+    add("--aa-side", type=_at_least(1), metavar="N", help="a pixel's grid of N x N cells for --aa")
     add("--samples", type=_at_least(1), metavar="N", help="light paths for each pixel")
     add("--time", type=positive_number, metavar="S", help="stop after so many seconds of tracing")
     add("--error", type=positive_number, metavar="RMSE", help="stop at this estimated error of the picture")
@@ -271,7 +274,7 @@ def apply_options(bpy: ModuleType, scene: Any, args: argparse.Namespace) -> None
             if value is not None:
                 setattr(scene.cycles, name, value)
     scene.render.engine = args.engine
-    for name in ("device", "accel", "integrator", "samples", "seed"):
+    for name in ("device", "accel", "integrator", "aa", "aa_side", "samples", "seed"):
         value = getattr(args, name)
         if value is not None:
             setattr(scene.trg, name, value)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from .native import NativeMissing, load_native
 
 DEVICE_NAMES = ("cpu", "embree", "cuda", "glsl", "dxr")
-INTEGRATORS = ("path",)
+INTEGRATORS = ("path", "classic")
 
 
 class Unavailable(Exception):

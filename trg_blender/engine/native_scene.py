@@ -7,6 +7,7 @@ from typing import Any
 
 import numpy as np
 
+from .classic_arrays import pack_classic
 from .cryptomatte import id_of
 from .scene_arrays import (
     LIGHT_FIELDS,
@@ -46,6 +47,9 @@ def build_native_scene(
         add_environment(result, scene)
     if scene.pass_data is not None:
         set_pass_data(result, scene, scene.pass_data)
+    result.set_antialiasing(settings.aa, settings.aa_side, settings.frame)
+    if settings.integrator == "classic":
+        result.set_classic(pack_classic(scene), scene.ambient)
     camera = scene.camera
     matrix = np.ascontiguousarray(camera.matrix, dtype=np.float64)
     window = np.array(camera.window, dtype=np.float64)

@@ -62,6 +62,8 @@ def film_shape(settings: RenderSettings) -> tuple[int, int]:
 def job_passes(scene: SceneArrays, settings: RenderSettings) -> tuple[str, ...]:
     """What a job is asked for: the user's passes, and alpha where the film is transparent."""
     wanted = tuple(name for name in PASS_NAMES if name in settings.passes and name not in ERROR_PASSES)
+    if settings.aa == "mfaa" and "depth" not in wanted:
+        wanted = (*wanted, "depth")
     return (*wanted, "alpha") if scene.transparent_film else wanted
 
 

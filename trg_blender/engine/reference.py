@@ -13,8 +13,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .antialiasing import is_deterministic, pattern_places, random_places
 from .motion import moves, still_at
 from .reference_camera import CameraRays, build_camera_rays, filter_offsets
+from .reference_classic import trace_classic
 from .reference_passes import PassNotes
 from .reference_path import Estimate, RayCounts, World, build_world, trace_paths
 from .reference_scene import MISS
@@ -142,6 +144,23 @@ class Step:
     first: int = 0
     """samples of the replicate before these"""
 
+    def sample_numbers(self) -> NDArray[np.int64]:
+        """Numbers of its samples among all of a pixel; sample k belongs to replicate k mod 8."""
+        return self.replicate + REPLICATES * (self.first + np.arange(self.samples))
+
+
+def places_in_pixel(
+    settings: RenderSettings, numbers: NDArray[np.int64], rng: np.random.Generator
+) -> Float64:
+    """(n, 2) places of samples in, or by a filter about, their pixel."""
+    if is_deterministic(settings):
+        pattern = pattern_places(settings)
+        return pattern[numbers % len(pattern)]
+    place = random_places(settings, len(numbers), rng)
+    if settings.aa == "sobol":
+        return 0.5 + filter_offsets(settings.pixel_filter, settings.filter_width, place)
+    return place
+
 
 def plan_steps(samples: int, pixels: int) -> Iterator[Step]:
     """Replicates in turn; sample k belongs to replicate k mod 8. Small pictures take several at once."""
@@ -189,13 +208,17 @@ def expose_step(
         return expose_moving(world, settings, step, rng, cancelled)
     window = film_window(settings)
     index = np.repeat(np.arange(window.width * window.height), step.samples)
+    numbers = np.tile(step.sample_numbers(), window.width * window.height)
     parts = []
     for first in range(0, len(index), BATCH):
         if cancelled():
             return None
         part = index[first : first + BATCH]
-        even = rng.random((len(part), 2))
-        place = 0.5 + filter_offsets(settings.pixel_filter, settings.filter_width, even)
+        place = places_in_pixel(settings, numbers[first : first + BATCH], rng)
+        if settings.integrator == "classic":
+            camera = pixel_rays(world.scene, settings, part, place)
+            parts.append(trace_classic(world, camera, settings.max_bounces))
+            continue
         camera = pixel_rays(world.scene, settings, part, place, rng.random((len(part), 2)))
         parts.append(trace_paths(world, camera, settings.max_bounces, rng, settings.passes))
     return join_estimates(parts, np.concatenate)
@@ -240,7 +263,7 @@ def expose_moving(
     start = np.random.default_rng([settings.seed % 2**64, step.replicate]).random()
     for number in range(step.first, step.first + step.samples):
         still = build_world(still_at(world.scene, (start + number * GOLDEN) % 1.0))
-        part = expose_step(still, settings, Step(step.replicate, 1), rng, cancelled)
+        part = expose_step(still, settings, Step(step.replicate, 1, number), rng, cancelled)
         if part is None:
             return None
         parts.append(part)

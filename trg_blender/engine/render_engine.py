@@ -16,15 +16,17 @@ from dataclasses import dataclass, replace
 import bpy
 
 from . import run_text, session
+from .antialiasing import FINEST_GRID
 from .devices import DEVICE_NAMES, Unavailable, find_device
 from .errors import SceneError
 from .from_blender import SceneReader
+from .mfaa import blend_frames
 from .native import ACCELERATORS
 from .pace import Pace
 from .report import Progress, format_progress, with_source
 from .result import Failure, border_of, records, register_passes, stamp_mattes, wanted_passes, write_pixels
 from .run_text import ENGINE_ID
-from .scene_arrays import RenderSettings, SceneArrays
+from .scene_arrays import Float32, RenderSettings, SceneArrays
 from .to_blender import requested_modes
 
 POLL_SECONDS = 0.03
@@ -170,8 +172,10 @@ class TRGRenderEngine(bpy.types.RenderEngine):
             interrupted = True
             job.cancel()
         outcome = job.result()
-        write_pixels(result, outcome.pixels, outcome.passes)
+        pixels, reused = blend_with_last(job, outcome, frame.scene_name)
+        write_pixels(result, pixels, outcome.passes)
         self._stamp(frame, result.layers[0].name)
+        outcome.report["numerics"]["reprojected_pixels"] = reused
         report = with_source(outcome.report, frame.file, frame.number, frame.seconds)
         records.keep_report(frame.scene_name, report)
         if interrupted:
@@ -206,6 +210,30 @@ class TRGRenderEngine(bpy.types.RenderEngine):
             records.watcher(progress)
 
 
+def blend_with_last(
+    job: session.RenderJob, outcome: session.Result, scene_name: str
+) -> tuple[Float32, int]:
+    """The picture, by `mfaa` together with the frame before, and how many pixels that gave to."""
+    frame = job.sampled_frame()
+    if frame is None:
+        return outcome.pixels, 0
+    return blend_frames(frame, records.exchange_frame(scene_name, frame))
+
+
+def choose_antialiasing(
+    own: bpy.types.PropertyGroup, modes: Mapping[str, str | int], warnings: list[str]
+) -> tuple[str, int]:
+    """Method and cells a side: the user's, or with Auto what the program asked for, or Sobol's points."""
+    if own.aa != "auto":
+        return own.aa, own.aa_side
+    if "antialiasing" not in modes:
+        return "sobol", own.aa_side
+    side = int(modes.get("antialiasing_n", 1))
+    if side > FINEST_GRID:
+        warnings.append(f"std::setaa: a grid of {side} x {side} is too fine, {FINEST_GRID} is used")
+    return str(modes["antialiasing"]), min(side, FINEST_GRID)
+
+
 def settings_of(
     scene: bpy.types.Scene,
     layer: bpy.types.ViewLayer,
@@ -226,6 +254,7 @@ def settings_of(
         if accel not in ACCELERATORS:
             warnings.append(f"accelerator {accel}: not built yet in this version; auto is used")
             accel = "auto"
+    aa, aa_side = choose_antialiasing(own, modes, warnings)
     return RenderSettings(
         width=size[0],
         height=size[1],
@@ -241,6 +270,9 @@ def settings_of(
         device=device,
         accel=accel,
         integrator=own.integrator,
+        aa=aa,
+        aa_side=aa_side,
+        frame=scene.frame_current,
         passes=wanted_passes(layer),
     )
 

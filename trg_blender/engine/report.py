@@ -10,6 +10,7 @@ from typing import Any
 from numpy.typing import NDArray
 
 from .. import __version__
+from .antialiasing import NO_RANDOMNESS, is_deterministic
 from .features import find_features
 from .image_error import Evidence, PictureError
 from .scene_arrays import RenderSettings, SceneArrays
@@ -77,7 +78,7 @@ def build_report(facts: RenderFacts) -> dict[str, Any]:
         "device": settings.device,
         "accel": facts.build.get("accel"),
         "integrator": settings.integrator,
-        "aa": None,
+        "aa": settings.aa,
         "seed": settings.seed,
         "threads": facts.threads,
         "kernel_set": job.get("kernel_set"),
@@ -95,6 +96,8 @@ def build_report(facts: RenderFacts) -> dict[str, Any]:
         "features": feature_section(scene, settings),
         "numerics": {
             "rejected_samples": job["rejected_samples"],
+            "cut_rays": job.get("cut_rays", 0),
+            "reprojected_pixels": 0,
             "degenerate_triangles": facts.build.get("degenerate_triangles"),
             "clamped": 0,
         },
@@ -164,6 +167,8 @@ def is_reliable(facts: RenderFacts) -> bool:
 def error_note(facts: RenderFacts) -> str | None:
     """Why the error is not known, is 0, or cannot be relied on; None where it says enough itself."""
     error, evidence = facts.error, facts.evidence
+    if is_deterministic(facts.settings):
+        return NO_RANDOMNESS
     if error.rmse is None or evidence is None:
         return "fewer than two replicates have samples: there is no spread to tell the error from"
     if error.rmse == 0.0:

@@ -11,6 +11,7 @@ import bpy
 import numpy as np
 
 from .cryptomatte import metadata
+from .mfaa import SampledFrame
 from .report import Progress
 from .scene_arrays import Float32, SceneArrays
 
@@ -179,6 +180,7 @@ class RenderRecords:
     """called now and then by the thread that renders"""
     _reports: dict[str, dict[str, Any]] = field(default_factory=dict)
     _failures: dict[str, Failure] = field(default_factory=dict)
+    _frames: dict[str, SampledFrame] = field(default_factory=dict)
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
     def keep_report(self, scene_name: str, report: dict[str, Any]) -> None:
@@ -190,6 +192,13 @@ class RenderRecords:
         """Remembers why the scene's last render gave no picture."""
         with self._lock:
             self._failures[scene_name] = failure
+
+    def exchange_frame(self, scene_name: str, frame: SampledFrame) -> SampledFrame | None:
+        """Remembers the frame that the scene's next one blends with; gives the one before."""
+        with self._lock:
+            before = self._frames.get(scene_name)
+            self._frames[scene_name] = frame
+            return before
 
     def report_of(self, scene_name: str) -> dict[str, Any] | None:
         """The last report of the scene, None before its first render."""

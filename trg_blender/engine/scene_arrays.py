@@ -7,11 +7,15 @@ The meaning of every number is docs/architecture.md, section 4.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
 from .texture_ops import ProgramArrays
+
+if TYPE_CHECKING:
+    from .classic_arrays import ClassicMaterial
 
 Float32 = NDArray[np.float32]
 Float64 = NDArray[np.float64]
@@ -297,6 +301,8 @@ class SceneArrays:
     meshes: list[MeshArrays] = field(default_factory=list)
     instances: list[InstanceArrays] = field(default_factory=list)
     materials: list[Material] = field(default_factory=list)
+    classic: list[ClassicMaterial | None] = field(default_factory=list)
+    """row of a material for the classic integrator; None, or no entry: derived (classic_arrays.py)"""
     images: list[ImageArrays] = field(default_factory=list)
     textures: list[Texture] = field(default_factory=list)
     programs: ProgramArrays = field(default_factory=ProgramArrays)
@@ -304,6 +310,8 @@ class SceneArrays:
     """names of corner attributes, for messages; number 0 stands for MeshArrays.uvs"""
     lights: list[Light] = field(default_factory=list)
     world: Color = (0.0, 0.0, 0.0)
+    ambient: Color = (0.0, 0.0, 0.0)
+    """ambient light of the classic integrator"""
     environment: Environment | None = None
     """takes the place of `world`"""
     transparent_film: bool = False
@@ -339,6 +347,12 @@ class RenderSettings:
     accel: str = "auto"
     triangle_test: str = "watertight"
     integrator: str = "path"
+    aa: str = "sobol"
+    """one of antialiasing.ANTIALIASINGS"""
+    aa_side: int = 4
+    """cells along the side of a pixel of supersampling, jittering and mfaa"""
+    frame: int = 0
+    """its parity picks the pattern of mfaa"""
     passes: tuple[str, ...] = ()
     """any of passes.PASS_NAMES; combined is always there"""
     border: tuple[int, int, int, int] | None = None

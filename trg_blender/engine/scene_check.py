@@ -7,6 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from .antialiasing import ANTIALIASINGS, FINEST_GRID
 from .errors import SceneError
 from .motion import MOST_KEYS
 from .passes import PASS_NAMES
@@ -55,6 +56,10 @@ def check_settings(settings: RenderSettings) -> None:
         raise SceneError("the reference renderer stops by samples or time, not by error")
     if settings.max_bounces < 0:
         raise SceneError(f"max_bounces is {settings.max_bounces}: it must be 0 or more")
+    if settings.aa not in ANTIALIASINGS:
+        raise SceneError(f"antialiasing {settings.aa!r} is unknown; there are {', '.join(ANTIALIASINGS)}")
+    if not 1 <= settings.aa_side <= FINEST_GRID:
+        raise SceneError(f"the grid of a pixel has {settings.aa_side} cells a side: 1 to {FINEST_GRID}")
     unknown = sorted(set(settings.passes) - set(PASS_NAMES))
     if unknown:
         raise SceneError(f"unknown passes: {', '.join(unknown)}; there are {', '.join(PASS_NAMES)}")

@@ -14,9 +14,11 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from .antialiasing import is_deterministic, with_pattern_samples
 from .devices import INTEGRATORS, Unavailable, require_device
 from .errors import SceneError
 from .image_error import Evidence, PictureError, estimate_error
+from .mfaa import SampledFrame
 from .native import ACCELERATORS, load_native
 from .native_scene import build_native_scene
 from .passes import KERNEL_PASSES, PassSource, film_shape, job_passes, read_combined, read_passes
@@ -26,6 +28,7 @@ from .scene_check import check_scene, check_settings
 
 __all__ = ["RenderJob", "Result", "SceneError", "Unavailable", "render", "start"]
 
+CLASSIC_PASSES = ("depth", "normal")
 POLL_SECONDS = 0.05
 FIRST_ERROR_SAMPLES = 8
 ERROR_STEP = 1.4
@@ -82,10 +85,16 @@ def start(scene: SceneArrays, settings: RenderSettings) -> RenderJob:
     integrator that is not here.
     """
     check_settings(settings)
+    settings = with_pattern_samples(settings)
     warnings = check_scene(scene)
     require_device(settings.device)
     if settings.integrator not in INTEGRATORS:
         raise Unavailable(f"integrator {settings.integrator}: not built yet in this version")
+    if settings.integrator == "classic":
+        kept = tuple(name for name in settings.passes if name in CLASSIC_PASSES)
+        dropped = [name for name in settings.passes if name not in kept]
+        warnings += [f"pass {name}: not with the classic integrator" for name in dropped]
+        settings = replace(settings, passes=kept)
     asked = replace(settings, passes=job_passes(scene, settings))
     if settings.device == "embree":
         warnings += missing_passes(settings)
@@ -200,11 +209,20 @@ class RenderJob:
         self._started.job.replicates(sums, counts)
         return Result(self.picture(), self.passes(), build_report(self._facts()), sums, counts)
 
+    def sampled_frame(self) -> SampledFrame | None:
+        """What `mfaa` carries over to the next frame; None for other methods and parts of pictures."""
+        if self._settings.aa != "mfaa" or self._settings.border is not None:
+            return None
+        depth = np.zeros(film_shape(self._settings), np.float32)
+        self._started.job.depth(depth)
+        return SampledFrame(self.picture(), depth, self._scene.camera, self._settings.frame)
+
     def _measure(self, state: dict[str, Any]) -> None:
         """Measures the error and notes it, once for each number of samples."""
         if self._history and self._history[-1].samples == state["samples"]:
             return
-        self._error = estimate_error(self._started.job.error())
+        known = not is_deterministic(self._settings)
+        self._error = estimate_error(self._started.job.error()) if known else PictureError()
         self._history.append(HistoryEntry(state["samples"], state["seconds"], self._error))
         while self._next_error <= state["samples"]:
             self._next_error = math.ceil(self._next_error * ERROR_STEP)

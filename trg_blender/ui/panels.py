@@ -90,12 +90,20 @@ class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):
         row.prop(own, "filter_width")
         for name in ("max_bounces", "seed", "device", "accel", "integrator"):
             layout.prop(own, name)
+        _draw_antialiasing(layout, own)
         column = layout.column()
         column.prop(context.scene.render, "threads_mode", text="Threads")
         row = column.row()
         row.enabled = context.scene.render.threads_mode == "FIXED"
         row.prop(context.scene.render, "threads", text=" ")
         layout.prop(context.scene.render, "film_transparent", text="Transparent Film")
+
+
+def _draw_antialiasing(layout: bpy.types.UILayout, own: bpy.types.PropertyGroup) -> None:
+    """The method, and what of grid and filter it asks for."""
+    layout.prop(own, "aa")
+    if own.aa in ("supersampling", "jittering", "mfaa"):
+        layout.prop(own, "aa_side")
 
 
 class TRG_RENDER_PT_report(_RenderPanel, bpy.types.Panel):

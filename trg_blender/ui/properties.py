@@ -27,7 +27,18 @@ FILTERS = (
     ("GAUSSIAN", "Gaussian", "A bell that is cut off at one and a half widths"),
     ("BLACKMAN_HARRIS", "Blackman-Harris", "A bell without a cut, that reaches one width: Cycles' default"),
 )
-INTEGRATORS = (("path", "Path Tracing", "Unidirectional, with light sampling and Russian roulette"),)
+INTEGRATORS = (
+    ("path", "Path Tracing", "Unidirectional, with light sampling and Russian roulette"),
+    ("classic", "Classic", "The paper's: direct light, coloured shadows, mirrored and refracted rays"),
+)
+ANTIALIASINGS = (
+    ("auto", "Auto", "What the program asks for, else Sobol"),
+    ("sobol", "Sobol", "Evenly random points, weighted by the pixel filter"),
+    ("none", "None", "The middle of the pixel alone"),
+    ("supersampling", "Supersampling", "The middles of a grid of cells in the pixel"),
+    ("jittering", "Jittering", "Random points, one in each cell of a grid"),
+    ("mfaa", "Multi-Frame", "Half of the cells in each frame, the frame before carried over"),
+)
 
 
 def _offer_parameters(settings: TRGSceneSettings, _context: bpy.types.Context) -> None:
@@ -112,6 +123,16 @@ class TRGSceneSettings(bpy.types.PropertyGroup):
     )
     integrator: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Integrator", description="How light is gathered", items=INTEGRATORS
+    )
+    aa: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Antialiasing", description="Which points of a pixel are sampled", items=ANTIALIASINGS
+    )
+    aa_side: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Grid",
+        description="Cells along the side of a pixel for supersampling, jittering and multi-frame",
+        default=4,
+        min=1,
+        max=64,
     )
 
 

@@ -10,7 +10,9 @@ from dataclasses import dataclass, field, replace
 
 import bpy
 
+from ..classic_arrays import ClassicMaterial
 from ..scene_arrays import Identity, Material
+from .classic import read_classic
 from .identities import identity_of_material
 from .shaders import ShaderReader
 from .sockets import active_tree
@@ -24,6 +26,7 @@ class MaterialTable:
 
     warnings: list[str]
     rows: list[Material] = field(default_factory=list)
+    classic: list[ClassicMaterial | None] = field(default_factory=list)
     textures: TextureTable = field(init=False)
     identities: list[Identity] = field(default_factory=list)
     """of the rows, for passes"""
@@ -45,6 +48,7 @@ class MaterialTable:
                 row = replace(row, mix_first=len(self.rows) + 1, mix_count=len(parts))
             self.rows += [row, *parts]
             self.identities += [identity_of_material(material)] * (1 + len(parts))
+            self.classic += [read_classic(material, row)] * (1 + len(parts))
             self._finish(self._index[key], reader)
         return self._index[key]
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from ..errors import SceneError
 from ..scene_arrays import Float32, Identity, InstanceArrays, MeshArrays, SceneArrays
 from .camera import read_camera
+from .classic import read_ambient
 from .identities import NEEDS_IDENTITIES, read_identities, read_pass_data
 from .lights import read_light
 from .materials import MaterialTable
@@ -74,6 +75,7 @@ class SceneReader:
             camera=camera,
             world=world.color,
             environment=world.environment,
+            ambient=read_ambient(scene.world),
             transparent_film=scene.render.film_transparent,
         )
         identities = read_identities(depsgraph) if NEEDS_IDENTITIES.intersection(self.passes) else []
@@ -82,7 +84,7 @@ class SceneReader:
             light = read_light(owner, _matrix(found.transforms[row]), warnings)
             if light is not None:
                 arrays.lights.append(light)
-        arrays.materials = table.rows
+        arrays.materials, arrays.classic = table.rows, table.classic
         arrays.pass_data = read_pass_data(scene, depsgraph.view_layer_eval, table.identities, self.passes)
         textures = table.textures
         arrays.textures, arrays.images = textures.textures, textures.pool.images

@@ -37,7 +37,7 @@ def _setaccel(rt: Runtime, accel: str) -> object:
 
 @HOST.function(
     "std::setaa", "kind: str, n: num 1..4096 = 1",
-    "Ask for none, supersampling, jittering or mfaa, with n samples.",
+    "Ask for none, supersampling, jittering or mfaa, on n x n cells of a pixel.",
 )  # fmt: skip
 def _setaa(rt: Runtime, kind: str, n: float) -> object:
     known = _known(rt, "antialiasing", kind, ANTIALIASINGS)
