@@ -119,7 +119,7 @@ TRG_FN void meet_surface(ClassicStage& stage, int32_t slot) {
         return;
     }
     ClassicVertex& v = stage.classic.vertices[stage.vertices++];
-    v.surface = surface_of_hit<F>(scene, from.ray, hit);
+    v.surface = surface_of_hit<F>(scene, {from.ray, kMiddleTime}, hit);
     v.wo = -normalize(from.ray.direction);
     v.path = from.path;
     v.weight = from.decay > 0.0f ? from.weight * std::exp(-from.decay * hit.t) : from.weight;
@@ -164,7 +164,7 @@ TRG_FN int32_t ask_light(ClassicStage& stage, const Light& light) {
 /// Light `shadow` where its ray has met a surface: tinted, and the ray goes on behind; or stopped.
 template <uint32_t F>
 TRG_FN bool pass_through(const SceneView& scene, const Hit& hit, Ray* ray, ClassicShadow* shadow) {
-    const Surface s = surface_of_hit<F>(scene, *ray, hit);
+    const Surface s = surface_of_hit<F>(scene, {*ray, kMiddleTime}, hit);
     const ClassicMaterial& m = scene.classic[s.material];
     if (shadow->decay > 0.0f) shadow->light = shadow->light * std::exp(-shadow->decay * hit.t);
     shadow->light = shadow->light * m.refract;
