@@ -4,9 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "cpu/classic_storage.h"
 #include "cpu/pass_film.h"
 #include "kernel/path_queues.h"
-#include "cpu/classic_storage.h"
 
 namespace trg {
 

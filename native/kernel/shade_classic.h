@@ -44,7 +44,7 @@ TRG_FN bool face_vertex(const SceneView& scene, ClassicVertex* v) {
     const Vec3 smooth = smooth_normal(scene, s);
     const Vec3 turned = outside ? smooth : -smooth;
     LookUp look{scene, s, v->wo, false, {}};
-    v->ns = bent_normal<F>(&look, dot(v->wo, turned) > 1e-4f ? turned : v->ng);
+    v->ns = bent_normal<F>(&look, s.material, dot(v->wo, turned) > 1e-4f ? turned : v->ng);
     v->material = classic_material_at<F>(&look);
     return outside;
 }

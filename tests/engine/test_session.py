@@ -217,8 +217,8 @@ def test_an_absent_device_says_why(name: str):
 
 
 def test_what_is_not_built_yet_says_so(settings):
-    with pytest.raises(Unavailable, match="integrator classic"):
-        session.start(floor_scene(LAMBERT, SUN), replace(settings, integrator="classic"))
+    with pytest.raises(Unavailable, match="integrator photons"):
+        session.start(floor_scene(LAMBERT, SUN), replace(settings, integrator="photons"))
 
 
 def test_the_tables_of_the_native_core_have_the_same_columns():

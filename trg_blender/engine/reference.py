@@ -262,7 +262,7 @@ def expose_moving(
     parts = []
     start = np.random.default_rng([settings.seed % 2**64, step.replicate]).random()
     for number in range(step.first, step.first + step.samples):
-        still = build_world(still_at(world.scene, (start + number * GOLDEN) % 1.0))
+        still = build_world(still_at(world.scene, (start + number * GOLDEN) % 1.0), settings.width)
         part = expose_step(still, settings, Step(step.replicate, 1, number), rng, cancelled)
         if part is None:
             return None

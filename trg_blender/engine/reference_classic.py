@@ -5,7 +5,7 @@ Rays wait in a queue instead of a recursion; a batch of them is traced together.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from .reference_lights import (
     spread_share,
 )
 from .reference_math import dot
+from .reference_media import no_media
 from .reference_path import Estimate, Paths, World, collect_world, keep
 from .reference_scene import FAR, MISS, Hits, Rays
 from .reference_surface import Surface, build_surface
@@ -64,7 +65,7 @@ def trace_classic(world: World, camera: CameraRays, max_bounces: int) -> Estimat
     count = len(camera.near)
     estimate = Estimate(np.zeros((count, 3)), np.zeros(count, dtype=bool), np.zeros((count, 3)))
     table = pack_classic(world.scene).astype(np.float64)
-    start = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count))
+    start = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count), no_media(count))
     queue = [Pending(start, np.zeros(count), 0)]
     estimate.rays.camera = count
     while queue:
@@ -84,7 +85,7 @@ def meet(world: World, table: Float64, pending: Pending, deepest: int, estimate:
     paths, hits = keep(paths, hits, met)
     if len(paths.index) == 0:
         return []
-    surface = build_surface(world.traced.triangles, world.materials, hits, -paths.rays.direction)
+    surface = build_surface(world.materials, hits, -paths.rays.direction)
     row = row_at(world, table, hits, surface)
     weight = paths.throughput * np.exp(-decay * hits.t)[:, None]
     if pending.depth == 0:
@@ -92,7 +93,7 @@ def meet(world: World, table: Float64, pending: Pending, deepest: int, estimate:
         estimate.normal[paths.index] = surface.ns
     ambient = row.ambient * np.asarray(world.scene.ambient, dtype=np.float64)
     np.add.at(estimate.radiance, paths.index, weight * (surface.material.emission + ambient))
-    lit = Paths(paths.rays, weight, paths.pdf, paths.index)
+    lit = replace(paths, throughput=weight)
     for light in world.scene.lights:
         add_tinted(world, table, light_rays(lit, surface, row, light), estimate)
     if pending.depth == deepest:
@@ -172,7 +173,7 @@ def send(paths: Paths, surface: Surface, branch: Branch, depth: int) -> Pending:
     rows = branch.weight.max(axis=1) >= CUT
     unit = (branch.wi / np.linalg.norm(branch.wi, axis=1, keepdims=True))[rows]
     rays = Rays(surface.leave(branch.wi)[rows], unit, np.full(len(unit), FAR))
-    on = Paths(rays, branch.weight[rows], paths.pdf[rows], paths.index[rows])
+    on = Paths(rays, branch.weight[rows], paths.pdf[rows], paths.index[rows], paths.media[rows])
     return Pending(on, branch.decay[rows], depth)
 
 
@@ -205,7 +206,7 @@ def light_rays(paths: Paths, surface: Surface, row: Row, light: Light) -> Paths:
     rows = np.any(sent != 0.0, axis=1)
     far = np.where(np.isinf(distance), FAR, distance * (1.0 - 1e-5) - 2.0 * surface.epsilon)
     rays = Rays(surface.leave(wi)[rows], wi[rows], np.maximum(far, 0.0)[rows])
-    return Paths(rays, sent[rows], paths.pdf[rows], paths.index[rows])
+    return Paths(rays, sent[rows], paths.pdf[rows], paths.index[rows], paths.media[rows])
 
 
 def add_tinted(world: World, table: Float64, paths: Paths, estimate: Estimate) -> None:
@@ -222,12 +223,12 @@ def add_tinted(world: World, table: Float64, paths: Paths, estimate: Estimate) -
         paths, hits = keep(paths, hits, ~free)
         if len(paths.index) == 0:
             return
-        surface = build_surface(world.traced.triangles, world.materials, hits, -paths.rays.direction)
+        surface = build_surface(world.materials, hits, -paths.rays.direction)
         row = row_at(world, table, hits, surface)
         light = paths.throughput * np.exp(-decay * hits.t)[:, None] * row.refract
         decay = np.where(surface.outside, row.decay, 0.0)
         left = np.where(paths.rays.far < FAR, paths.rays.far - hits.t - surface.epsilon, FAR)
         rays = Rays(surface.leave(paths.rays.direction), paths.rays.direction, left)
         on = np.any(light != 0.0, axis=1) & (left > 0.0)
-        paths, _unused = keep(Paths(rays, light, paths.pdf, paths.index), hits, on)
+        paths, _unused = keep(replace(paths, rays=rays, throughput=light), hits, on)
         decay = decay[on]
