@@ -11,8 +11,9 @@ import pytest
 
 from trg_blender.engine import session
 from trg_blender.engine.devices import find_device
+from trg_blender.engine.scene_arrays import RenderSettings, SceneArrays
 
-from .agreement import compare, student_to_normal
+from .agreement import Agreement, compare, student_to_normal
 from .agreement_scenes import cases
 
 CASES = cases()
@@ -25,12 +26,20 @@ def test_native_and_reference_agree(name: str):
         if reason is not None:
             pytest.skip(reason)
     scene, settings = CASES[name]
-    native = session.render(scene, replace(settings, device="cpu", samples=4096))
-    # Half of the benchmark's samples: the reference is slow.
-    reference = session.render(scene, replace(settings, device="embree", samples=min(settings.samples, 256)))
-    agreement = compare(native, reference)
+    # Half of the benchmark's samples: the reference is slow. Of so many scenes some differ by chance beyond
+    # three standard errors: what does must do so again with fresh samples, four times as many.
+    agreement = compare_renders(scene, replace(settings, samples=min(settings.samples, 256)), 4096)
+    if not agreement.agrees or agreement.resolution >= 0.06:
+        more = 4 * min(settings.samples, 256)
+        agreement = compare_renders(scene, replace(settings, samples=more, seed=settings.seed + 1), 16384)
     assert agreement.agrees, str(agreement)
     assert agreement.resolution < 0.06, f"the comparison could not see a fault: {agreement}"
+
+
+def compare_renders(scene: SceneArrays, settings: RenderSettings, native_samples: int) -> Agreement:
+    """`settings` are those of the reference."""
+    native = session.render(scene, replace(settings, device="cpu", samples=native_samples))
+    return compare(native, session.render(scene, replace(settings, device="embree")))
 
 
 def test_the_comparison_sees_a_fault_of_two_percent():

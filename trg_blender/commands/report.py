@@ -15,6 +15,7 @@ from .. import cli
 from ..engine.devices import DEVICE_NAMES, INTEGRATORS, Unavailable, require_device
 from ..engine.native import ACCELERATORS, TRIANGLE_TESTS
 from .render import RenderCommand, RenderFailed, load_bpy, positive_number, size_of, source_path
+from .render import add_parser as add_render_parser
 from .render_output import blender_chatter_off
 
 REFERENCE_FACTOR = 16
@@ -170,11 +171,12 @@ def read_scene(args: argparse.Namespace) -> tuple[Any, Any]:
     """Arrays and settings of the frame, by the way that `trg render` takes. Raises RenderFailed."""
     from dataclasses import replace
 
-    args.engine, args.settings = "TRG", []
-    for name in ("device", "accel", "integrator", "samples", "seed", "time", "error"):
-        setattr(args, name, None)
-    args.no_adaptive, args.frames, args.quiet, args.output = True, None, True, None
-    with open_scene(args) as command:
+    words = argparse.ArgumentParser()
+    add_render_parser(words.add_subparsers())
+    asked = words.parse_args(["render", str(args.file)])
+    asked.size, asked.frame, asked.threads = args.size, args.frame, args.threads
+    asked.no_adaptive = asked.quiet = True
+    with open_scene(asked) as command:
         arrays, settings = command.read(next(iter(command.frames())))
     return arrays, replace(settings, samples=ENDLESS, threads=args.threads, passes=())
 

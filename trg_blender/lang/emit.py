@@ -219,13 +219,14 @@ class StatementEmitter:
         emit.site(head, "in", (head.subject,))
         name = emit.variable(head.target)
         items = call("I_", [emit.value(head.subject)], head.span)
+        # Taken before the body: what its statements give back must not be these.
+        place, found = emit.temporary(), emit.temporary()
         self._around.append(None)
         body = self.block((node.body,))
         self._around.pop()
         if not emit.suspends:
             paced = call("C_", [items, load("K_", span)], span)
             return [walk(store(name, span), paced, body, [], span)]
-        place, found = emit.temporary(), emit.temporary()
         ended = compare(load(found, span), IS, load("A_", span), span)
         taken = call("Q_", [load(place, span), load("A_", span)], span)
         first = [
