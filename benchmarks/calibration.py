@@ -1,6 +1,6 @@
 """Does the stated error hold as often as it claims?
 
-    python -m benchmarks.calibration [--seeds 200] [--samples 8 32 128] [--size 32x24] [--json FILE] [NAME ...]
+    python -m benchmarks.calibration [--seeds 200] [--samples 8 32 128] [--size 32x24] [NAME ...]
 
 Method. Each scene is rendered with many seeds at each number of samples. The truth is a render of 64 times
 the most samples (512 times for the hard scenes), its own estimated variance taken off the squared

@@ -67,6 +67,7 @@ def plain_materials(count: int) -> Any:
     names = trg_native.MATERIAL_FIELDS
     plain = {"ior": 1.5, "coat_ior": 1.5, **{name: -1 for name in names if name.endswith("_texture")}}
     plain.update({"interface": 0, "multiscatter": 1, "metal_grazing": 0, "alpha": 1})
+    plain.update({"translucent": 0, "mix_first": 0, "mix_count": 0})
     return np.tile(np.array([plain.get(name, 0.5) for name in names], np.float32), (count, 1))
 
 

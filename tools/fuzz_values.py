@@ -14,7 +14,14 @@ Item = TypeVar("Item")
 ODD = np.array(
     [0.0, -0.0, 1e-45, -1e-38, 1e-20, 1e-7, 1e7, 1e18, -2e18, 3e38, np.inf, -np.inf, np.nan], np.float32
 )
-WHOLE_MATERIAL = {"interface": 3, "multiscatter": 2, "metal_grazing": 2}
+WHOLE_MATERIAL = {
+    "interface": 3,
+    "multiscatter": 2,
+    "metal_grazing": 2,
+    "translucent": 2,
+    "mix_first": 2,
+    "mix_count": 2,
+}
 WHOLE_TEXTURE = {"wrap": 4, "filter": 3, "channel": 3, "unassociate": 2, "uv_map": 3}
 """columns that hold one of so many whole numbers, from 0"""
 

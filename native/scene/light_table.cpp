@@ -50,7 +50,7 @@ LightRow read_light(TableRow& row) {
     light.axis_u = row.next_vector();
     light.axis_v = row.next_vector();
     light.radius = row.next(0.0f, 3.0e38f);
-    read.angle = row.next(0.0f, kPi);
+    read.angle = row.next(0.0f, 1.571f);
     light.cos_outer = row.next();
     light.cos_inner = row.next();
     for (float& coefficient : light.falloff) coefficient = row.next();

@@ -79,7 +79,7 @@ def test_a_sun_as_large_as_the_sky_stays_finite(angle: float):
     assert (found >= 0.0).all() and found.max() < 10.0
 
 
-@pytest.mark.parametrize("angle", [4.0, 100.0, -0.1, np.nan])
-def test_a_sun_larger_than_all_directions_is_refused(angle: float):
+@pytest.mark.parametrize("angle", [1.6, 3.0, 4.0, 100.0, -0.1, np.nan])
+def test_a_sun_larger_than_half_of_all_directions_is_refused(angle: float):
     with pytest.raises(SceneError, match="angle"):
         picture(sun(angle))

@@ -59,8 +59,7 @@ def measure_error(sums: Float64, counts: NDArray[np.int64]) -> dict[str, Any]:
 
     Keys: `replicates` that have samples; `mse`, the mean variance of the picture; `relmse`, the same over
     picture^2 + 0.01; `delete_one_mse`, the mse without each replicate; `normal_spread`, half the relative
-    variance that the squared error of a picture would have were its noise normal (native/cpu/picture_error.h).
-    None below two replicates.
+    variance of the squared error of a picture, were its noise normal (native/cpu/picture_error.h). None below two replicates.
     """
     used = counts > 0
     sums, weights = sums[used], counts[used].astype(np.float64)
@@ -88,8 +87,8 @@ def measure_error(sums: Float64, counts: NDArray[np.int64]) -> dict[str, Any]:
 def normal_spread(sums: Float64, counts: Float64) -> float:
     """Sum over pixels and pairs of channels of the squared covariance over the square of all variance.
 
-    0 below four replicates. The square is the product of what two halves of the replicates tell: a rare bright path is in one of them
-    alone and does not swell it.
+    0 below four replicates. The square is the product of what two halves of the replicates tell: a
+    rare bright path is in one of them alone and does not swell it.
     """
     if len(counts) < 4:
         return 0.0
