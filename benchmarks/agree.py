@@ -5,9 +5,10 @@
 Method. Each engine renders each scene with `seeds` seeds of `samples` samples: no denoiser, no clamping, no
 adaptive sampling, caustics on, the same bounces, a box filter of one pixel unless the scene is about filters.
 The spread of the seeds gives the noise of every figure. A scene agrees when the means of the pictures differ
-by no more than 0.5 % and no region of 16 x 16 pixels by more than 2 %, both beyond the noise: the difference less z standard errors,
-with z for 1 % of false alarms a scene over its regions (Bonferroni). FLIP (Andersson et al. 2020) compares
-the two pictures tone-mapped by the sRGB curve, when the package flip_evaluator is there; noise raises it.
+by no more than 0.5 % and no region of 16 x 16 pixels by more than 2 %, both beyond the noise: the difference
+less z standard errors, with z for 1 % of false alarms a scene over its regions (Bonferroni). FLIP (Andersson
+et al. 2020) compares the two pictures tone-mapped by the sRGB curve, when the package flip_evaluator is
+there; noise raises it.
 
 Exit code 1 when a scene disagrees that EXCEPTIONS does not explain.
 """

@@ -59,7 +59,8 @@ def measure_error(sums: Float64, counts: NDArray[np.int64]) -> dict[str, Any]:
 
     Keys: `replicates` that have samples; `mse`, the mean variance of the picture; `relmse`, the same over
     picture^2 + 0.01; `delete_one_mse`, the mse without each replicate; `normal_spread`, half the relative
-    variance of the squared error of a picture, were its noise normal (native/cpu/picture_error.h). None below two replicates.
+    variance of the squared error of a picture, were its noise normal (native/cpu/picture_error.h). None
+    below two replicates.
     """
     used = counts > 0
     sums, weights = sums[used], counts[used].astype(np.float64)
