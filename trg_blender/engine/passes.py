@@ -15,7 +15,7 @@ LIGHT_PASSES = {
     for kind in ("diffuse", "glossy", "transmission")
     for part in ("direct", "indirect", "color")
 }
-"""Light of a kind of scattering is divided by its colour: colour * (direct + indirect) is part of combined."""
+"""Light of one kind of scattering, divided by its colour: colour * (direct + indirect) is its part."""
 KERNEL_PASSES = {
     **LIGHT_PASSES,
     "emission": 3,
