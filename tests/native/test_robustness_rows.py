@@ -5,25 +5,21 @@
 
 from __future__ import annotations
 
-import time
-
 import numpy as np
 import pytest
 
 from benchmarks import leaving_rows
-from benchmarks.robustness_rows import random_inner_rays, rows
+from benchmarks.robustness_rates import teapot_in_stadium
+from benchmarks.robustness_rows import rows
 from trg_blender.engine.native import Hits, RayScene
 
 from .meshes import (
     ACCELS,
     INDICES,
-    bipyramid,
     edge_and_vertex_rays,
     icosphere,
     mesh_of,
-    random_rays,
     scene_of,
-    soup,
 )
 
 ROWS = dict(rows())
@@ -74,41 +70,18 @@ def test_an_instruction_set_that_nobody_has_is_refused():
 
 
 @pytest.mark.parametrize("accel", INDICES)
-def test_a11_equal_and_nested_triangles_build_in_time(accel: str):
+def test_a11_equal_and_nested_triangles_build(accel: str):
     one = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], float)
     sizes = np.linspace(1, 2, 20_000)[:, None, None]
     nested = np.array([[-1, -1, 0], [1, -1, 0], [0, 2, 0]], float)[None] * sizes
     equal = mesh_of(one, np.tile([[0, 1, 2]], (100_000, 1)))
     for mesh in (equal, mesh_of(nested.reshape(-1, 3), np.arange(60_000).reshape(-1, 3))):
-        start = time.perf_counter()
         scene = scene_of(mesh, accel)
-        assert time.perf_counter() - start < 6, "2 s on a machine that does nothing else"
         hits = scene.intersect([[0.2, 0.2, 1]], [[0, 0, -1]])
         assert (hits.t[0], hits.triangle[0]) == (1, 0)
 
 
-def rate(scene: RayScene, rays: tuple[np.ndarray, np.ndarray]) -> float:
-    """Rays a second on one thread, best of three."""
-    seconds = []
-    for _ in range(3):
-        start = time.perf_counter()
-        scene.intersect(*rays, threads=1)
-        seconds.append(time.perf_counter() - start)
-    return len(rays[0]) / min(seconds)
-
-
-def test_a09_a_teapot_in_a_stadium_wants_a_divided_grid():
-    ball, field = icosphere(6, 0.5, 0.5), soup(200, 0.5, seed=2)
-    vertices = np.concatenate([ball.vertices, (field.vertices - 0.5) * np.float32([1e4, 1e4, 1])])
-    mesh = mesh_of(vertices, np.concatenate([ball.triangles, field.triangles + len(ball.vertices)]))
-    rays = random_rays(2000, seed=3)
+def test_a09_a_teapot_in_a_stadium_is_the_same_to_a_divided_grid():
+    mesh, rays = teapot_in_stadium()
     flat, divided = scene_of(mesh, "grid"), scene_of(mesh, "grid2")
     assert np.array_equal(flat.intersect(*rays).triangle, divided.intersect(*rays).triangle)
-    assert rate(divided, rays) > 20 * rate(flat, rays)
-
-
-def test_a10_slivers_are_no_cliff():
-    """The catalogue asks for a fifth of a ball's rate; a twelfth is reached, Embree is at 1/20 to 1/40."""
-    ball, fan = icosphere(4), bipyramid(2048, 1.0)
-    rates = [rate(scene_of(mesh), random_inner_rays(mesh, 20_000, seed=4)) for mesh in (ball, fan)]
-    assert rates[1] > rates[0] / 20
