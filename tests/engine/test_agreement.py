@@ -18,7 +18,7 @@ from .agreement_scenes import cases
 
 CASES = cases()
 OPEN = {
-    "light_spot": "one block differs by 3.53 standard errors (limit 3.34) after 1024 samples of the reference",
+    "light_spot": "one block differs by 3.53 standard errors (limit 3.34) after 1024 reference samples",
     "light_tree_glass_suns": "the reference resolves 9 % after 1024 samples, 6 % are asked for",
 }
 """Scenes about which nothing is settled yet, with the reason."""
