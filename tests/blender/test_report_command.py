@@ -45,7 +45,14 @@ def test_a_reference_of_another_size_is_refused(tmp_path: Path, capsys: pytest.C
 
 @pytest.mark.parametrize(
     "words",
-    [["--accels", "quick"], ["--times", "0"], ["--times", ","], ["--target", "-1"], ["--devices", ""]],
+    [
+        ["--accels", "quick"],
+        ["--times", "0"],
+        ["--times", ","],
+        ["--target", "-1"],
+        ["--devices", ""],
+        ["--seeds", "0"],
+    ],
 )
 def test_wrong_usage_is_2(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:
     assert cli.main(["report", str(HELLO), *words]) == 2

@@ -65,15 +65,15 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add("--accel", choices=ACCELERATORS, help="structure that finds the nearest surface")
     add("--integrator", choices=INTEGRATORS, help="how light is gathered")
     add("--aa", choices=("auto", *ANTIALIASINGS), help="which points of a pixel are sampled")
-    add("--aa-side", type=_at_least(1), metavar="N", help="a pixel's grid of N x N cells for --aa")
-    add("--samples", type=_at_least(1), metavar="N", help="light paths for each pixel")
+    add("--aa-side", type=at_least(1), metavar="N", help="a pixel's grid of N x N cells for --aa")
+    add("--samples", type=at_least(1), metavar="N", help="light paths for each pixel")
     add("--time", type=positive_number, metavar="S", help="stop after so many seconds of tracing")
     add("--error", type=positive_number, metavar="RMSE", help="stop at this estimated error of the picture")
     add("--no-adaptive", action="store_true", help="with --time or --error: all pixels get equal samples")
     add("--filter", choices=PIXEL_FILTERS, metavar="NAME", help="pixel filter: " + ", ".join(PIXEL_FILTERS))
     add("--filter-width", type=positive_number, metavar="PIXELS", help="width of filters but box; 1.5")
-    add("--seed", type=_at_least(0), metavar="N", help="changes the noise")
-    add("--threads", type=_at_least(0), metavar="N", help="0: all cores")
+    add("--seed", type=at_least(0), metavar="N", help="changes the noise")
+    add("--threads", type=at_least(0), metavar="N", help="0: all cores")
     add("--engine", choices=("TRG", "CYCLES"), default="TRG", help="engine that renders the scene")
     add("--report", type=Path, metavar="FILE", help="write the report as JSON; several frames give a list")
     add_set(parser)
@@ -369,7 +369,7 @@ def positive_number(text: str) -> float:
     return value
 
 
-def _at_least(lowest: int) -> Any:
+def at_least(lowest: int) -> Any:
     def number(text: str) -> int:
         if not text.isdigit() or int(text) < lowest:
             raise argparse.ArgumentTypeError(f"{text!r} is not a whole number of at least {lowest}")

@@ -7,20 +7,21 @@ import csv
 import itertools
 import sys
 from collections.abc import Iterator
-from dataclasses import dataclass
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from .. import cli
-from ..engine.devices import DEVICE_NAMES, INTEGRATORS, Unavailable, require_device
+from ..engine.devices import DEVICE_NAMES, INTEGRATORS, require_device
 from ..engine.native import ACCELERATORS, TRIANGLE_TESTS
-from .render import RenderCommand, RenderFailed, load_bpy, positive_number, size_of, source_path
+from ..engine.report import ENDLESS_SAMPLES
+from .render import RenderCommand, RenderFailed, at_least, load_bpy, positive_number, size_of, source_path
 from .render import add_parser as add_render_parser
 from .render_output import blender_chatter_off
 
 REFERENCE_FACTOR = 16
 """The reference has so many times the samples of the longest curve."""
-ENDLESS = 2**20
 
 
 def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -39,12 +40,12 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "--tests", type=_list_of(TRIANGLE_TESTS), default=["watertight"], metavar="A,B", help="triangle tests"
     )
     add("--times", type=_times, default=[0.5, 1.0, 2.0, 4.0], metavar="S,S", help="seconds; 0.5,1,2,4")
-    add("--seeds", type=int, default=3, metavar="N", help="renders of each combination; 3")
+    add("--seeds", type=at_least(1), default=3, metavar="N", help="renders of each combination; 3")
     add("--target", type=positive_number, metavar="RMSE", help="say when each combination reaches it")
     add("--reference", type=Path, metavar="FILE.exr", help="compare with this picture of the same size")
     add("--size", type=size_of, metavar="WxH", help="picture size; else the program's or the file's")
     add("--frame", type=int, metavar="N")
-    add("--threads", type=int, default=0, metavar="N", help="0: all cores")
+    add("--threads", type=at_least(0), default=0, metavar="N", help="0: all cores")
     add("--out", type=Path, default=Path("report"), metavar="DIR", help="where the three files go; report")
 
 
@@ -54,8 +55,6 @@ def run(args: argparse.Namespace) -> int:
 
     if not args.file.is_file():
         raise FileNotFoundError(f"there is no file {args.file}")
-    if args.seeds < 1:
-        raise argparse.ArgumentError(None, f"--seeds {args.seeds}: it must be 1 or more")
     load_matplotlib()
     for device in args.devices:
         require_device(device)
@@ -98,9 +97,8 @@ def measure(args: argparse.Namespace, out: Any) -> Measured:
             truth, origin = reference_for(args, scene, variant.apply(settings), out)
             truths[variant.integrator], references[variant.integrator] = truth, origin
         for seed in range(1, args.seeds + 1):
-            curve = measure_curve(
-                scene, _with_seed(settings, seed), args.times, truths[variant.integrator], variant
-            )
+            seeded = replace(settings, seed=seed)
+            curve = measure_curve(scene, seeded, args.times, truths[variant.integrator], variant)
             for point in curve:
                 points.append(point)
                 out.write(
@@ -132,14 +130,13 @@ def variants_of(args: argparse.Namespace) -> Iterator[Any]:
 
 def reference_for(args: argparse.Namespace, scene: Any, settings: Any, out: Any) -> tuple[Any, str]:
     """The picture to compare with and where it comes from. Raises RenderFailed for one that does not fit."""
-    from dataclasses import replace
-
     from ..engine import session
     from ..engine.error_curves import make_reference
 
     if args.reference is not None:
         return read_reference(args.reference, (settings.height, settings.width)), str(args.reference)
-    probe = session.render(scene, replace(settings, device="cpu", samples=ENDLESS, seconds=args.times[-1]))
+    longest = replace(settings, device="cpu", samples=ENDLESS_SAMPLES, seconds=args.times[-1])
+    probe = session.render(scene, longest)
     samples = max(REFERENCE_FACTOR * int(probe.report["samples"]), 256)
     out.write(f"reference of {settings.integrator}: {samples} samples\n")
     out.flush()
@@ -169,8 +166,6 @@ def read_reference(path: Path, shape: tuple[int, int]) -> Any:
 
 def read_scene(args: argparse.Namespace) -> tuple[Any, Any]:
     """Arrays and settings of the frame, by the way that `trg render` takes. Raises RenderFailed."""
-    from dataclasses import replace
-
     words = argparse.ArgumentParser()
     add_render_parser(words.add_subparsers())
     asked = words.parse_args(["render", str(args.file)])
@@ -178,22 +173,18 @@ def read_scene(args: argparse.Namespace) -> tuple[Any, Any]:
     asked.no_adaptive = asked.quiet = True
     with open_scene(asked) as command:
         arrays, settings = command.read(next(iter(command.frames())))
-    return arrays, replace(settings, samples=ENDLESS, threads=args.threads, passes=())
+    return arrays, replace(settings, samples=ENDLESS_SAMPLES, threads=args.threads, passes=())
 
 
-def open_scene(args: argparse.Namespace) -> Any:
-    from contextlib import contextmanager
-
-    @contextmanager
-    def opened() -> Iterator[RenderCommand]:
-        command = RenderCommand(load_bpy(), args, sys.stderr)
-        try:
-            command.open()
-            yield command
-        finally:
-            command.close()
-
-    return opened()
+@contextmanager
+def open_scene(args: argparse.Namespace) -> Iterator[RenderCommand]:
+    """`args` are those of `trg render`."""
+    command = RenderCommand(load_bpy(), args, sys.stderr)
+    try:
+        command.open()
+        yield command
+    finally:
+        command.close()
 
 
 def write_table(path: Path, points: list[Any]) -> None:
@@ -218,12 +209,6 @@ def write_table(path: Path, points: list[Any]) -> None:
             )
 
 
-def _with_seed(settings: Any, seed: int) -> Any:
-    from dataclasses import replace
-
-    return replace(settings, seed=seed)
-
-
 def _list_of(known: tuple[str, ...]) -> Any:
     def words(text: str) -> list[str]:
         found = [word.strip() for word in text.split(",") if word.strip()]
@@ -240,6 +225,3 @@ def _times(text: str) -> list[float]:
     if not times:
         raise argparse.ArgumentTypeError(f"{text!r} holds no seconds")
     return times
-
-
-__all__ = ["Measured", "Unavailable", "add_parser", "run"]
