@@ -23,10 +23,10 @@ from benchmarks.calibration_scenes import SCENES  # noqa: E402
 from trg_blender.engine import session  # noqa: E402
 from trg_blender.engine.error_curves import make_reference  # noqa: E402
 from trg_blender.engine.image_error import rmse  # noqa: E402
+from trg_blender.engine.report import ENDLESS_SAMPLES  # noqa: E402
 from trg_blender.engine.scene_arrays import RenderSettings, SceneArrays  # noqa: E402
 
 REFERENCE_FACTOR = 24
-ENDLESS = 1 << 20
 
 
 def scenes(args: argparse.Namespace, size: tuple[int, int]) -> Iterator[tuple[str, SceneArrays]]:
@@ -65,7 +65,7 @@ def main() -> int:
     parser.add_argument("--examples", nargs="*", metavar="NAME", help="programs of examples/ (needs bpy)")
     args = parser.parse_args()
     width, height = (int(side) for side in args.size.split("x"))
-    settings = RenderSettings(width, height, samples=ENDLESS, seconds=args.seconds, max_bounces=8)
+    settings = RenderSettings(width, height, samples=ENDLESS_SAMPLES, seconds=args.seconds, max_bounces=8)
     print(f"{'scene':28} time to equal error, median [lowest, highest]")
     for name, scene in scenes(args, (width, height)):
         ratios = compare(scene, settings, args.rounds)

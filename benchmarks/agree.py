@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
 from benchmarks.agree_scenes import scenes  # noqa: E402
-from trg_blender.ui import registration  # noqa: E402
+from benchmarks.engines import enable_engines  # noqa: E402
 
 Pictures = NDArray[np.float64]
 REGION = 16
@@ -190,11 +190,6 @@ def engine_warnings(scene: Any) -> tuple[str, ...]:
     return tuple(report["warnings"]) if report else ()
 
 
-def enable_engines() -> None:
-    if "cycles" not in bpy.context.preferences.addons:
-        bpy.ops.preferences.addon_enable(module="cycles")
-
-
 def describe(one: Agreement) -> str:
     verdict = "agrees" if one.agrees else "EXCEPTION" if one.scene in EXCEPTIONS else "DIFFERS"
     shown = "    -" if one.flip is None else f"{one.flip:.3f}"
@@ -217,8 +212,6 @@ def main() -> int:
     args = parser.parse_args()
     if args.out:
         args.out.mkdir(parents=True, exist_ok=True)
-    if not hasattr(bpy.types.Scene, "trg"):
-        registration.register()
     wanted = [name for name in scenes() if not args.names or any(part in name for part in args.names)]
     results = []
     with tempfile.TemporaryDirectory() as folder:

@@ -35,8 +35,7 @@ from benchmarks.calibration_scenes import SCENES, CalibrationScene  # noqa: E402
 from trg_blender.engine.image_error import Evidence, estimate_error  # noqa: E402
 from trg_blender.engine.native import load_native  # noqa: E402
 from trg_blender.engine.native_scene import build_native_scene  # noqa: E402
-from trg_blender.engine.pixel_error import LUMINANCE  # noqa: E402
-from trg_blender.engine.scene_arrays import RenderSettings  # noqa: E402
+from trg_blender.engine.scene_arrays import LUMINANCE, RenderSettings  # noqa: E402
 
 Float64 = NDArray[np.float64]
 TRUTH_FACTOR, HARD_FACTOR = 64, 512

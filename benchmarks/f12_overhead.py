@@ -27,6 +27,7 @@ import bpy
 import numpy as np
 
 sys.path.insert(0, str(Path(__file__).resolve().parent.parent))
+from benchmarks.engines import enable_engines  # noqa: E402
 from trg_blender.ui import registration  # noqa: E402
 
 ENGINES = ("TRG", "CYCLES")
@@ -87,14 +88,6 @@ def load_grid() -> bpy.types.Scene:
     mesh.update(calc_edges=True)
     scene.collection.objects.link(bpy.data.objects.new("grid", mesh))
     return scene
-
-
-def enable_engines() -> None:
-    """Both engines registered; reading a factory file may have dropped Cycles."""
-    if "cycles" not in bpy.context.preferences.addons:
-        bpy.ops.preferences.addon_enable(module="cycles")
-    if not hasattr(bpy.types.Scene, "trg"):
-        registration.register()
 
 
 def time_render(scene: bpy.types.Scene, engine: str) -> float:

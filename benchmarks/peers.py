@@ -28,14 +28,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import bpy
 import numpy as np
 from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
-from benchmarks.agree import enable_engines, prepare, render_once  # noqa: E402
+from benchmarks.agree import prepare, render_once  # noqa: E402
+from benchmarks.engines import enable_engines  # noqa: E402
 from benchmarks.peer_scenes import NAMES, build, describe  # noqa: E402
-from trg_blender.ui import registration  # noqa: E402
 
 Picture = NDArray[np.float64]
 ENGINES = ("TRG", "CYCLES")
@@ -202,8 +201,6 @@ def main() -> int:
     parser.add_argument("--peers", type=Path)
     parser.add_argument("--out", type=Path)
     args = parser.parse_args()
-    if not hasattr(bpy.types.Scene, "trg"):
-        registration.register()
     ratios = []
     with tempfile.TemporaryDirectory() as folder:
         for name in args.scenes.split(","):

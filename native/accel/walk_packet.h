@@ -29,16 +29,8 @@ struct ChildOrder {
 #if defined(__AVX2__)
 
 TRG_INLINE_FN ChildOrder order_children(const ChildHits& hits) {
-    const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
-    const __m256i bits =
-        _mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(hits.entry.v));
-    const __m256i select = _mm256_sllv_epi32(_mm256_set1_epi32(static_cast<int>(hits.mask)),
-                                             _mm256_sub_epi32(_mm256_set1_epi32(31), lanes));
-    const __m256i missed =
-        _mm256_andnot_si256(_mm256_srai_epi32(select, 31), _mm256_set1_epi32(-1));
-    const __m256i keys = _mm256_or_si256(_mm256_or_si256(bits, lanes), missed);
     ChildOrder order;
-    _mm256_store_si256(reinterpret_cast<__m256i*>(order.key), sort_descending(keys));
+    _mm256_store_si256(reinterpret_cast<__m256i*>(order.key), sort_descending(child_keys(hits)));
     order.count = count_bits(hits.mask);
     return order;
 }

@@ -146,10 +146,9 @@ TRG_FN uint32_t least_of(__m256i keys) {
     return static_cast<uint32_t>(_mm_cvtsi128_si32(least));
 }
 
-/// The nearest child of `hits`; the others are pushed, the next nearest last. Keys are the entry
-/// distances, whose three lowest bits make room for the lane.
-TRG_INLINE_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits,
-                                           WalkStack& stack) {
+/// Keys of the children of `hits`: their entry distances, whose three lowest bits make room for the
+/// lane; all bits where the ray misses.
+TRG_INLINE_FN __m256i child_keys(const ChildHits& hits) {
     const __m256i lanes = _mm256_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7);
     const __m256i bits =
         _mm256_andnot_si256(_mm256_set1_epi32(7), _mm256_castps_si256(hits.entry.v));
@@ -157,7 +156,13 @@ TRG_INLINE_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits
                                              _mm256_sub_epi32(_mm256_set1_epi32(31), lanes));
     const __m256i missed =
         _mm256_andnot_si256(_mm256_srai_epi32(select, 31), _mm256_set1_epi32(-1));
-    const __m256i keys = _mm256_or_si256(_mm256_or_si256(bits, lanes), missed);
+    return _mm256_or_si256(_mm256_or_si256(bits, lanes), missed);
+}
+
+/// The nearest child of `hits`; the others are pushed, the next nearest last.
+TRG_INLINE_FN NodeRef push_all_but_nearest(const WideNode& node, const ChildHits& hits,
+                                           WalkStack& stack) {
+    const __m256i keys = child_keys(hits);
     const NodeRef nearest = node.child[least_of(keys) & 7];
 
     const __m256i sorted = sort_descending(keys);

@@ -118,11 +118,11 @@ HalfSnapshot Film::snapshot(const Tile& tile, int half) const {
     return kept;
 }
 
-int Film::complete_replicates() const {
+uint32_t Film::least_samples() const {
     uint32_t least = ~0u;
     for (int index = 0; index < tile_count_; ++index)
         least = std::min(least, tiles_[index].samples_published.load(std::memory_order_acquire));
-    return static_cast<int>(std::min<uint32_t>(least, replicates_));
+    return least;
 }
 
 void Film::read_combined(float* out) const {
@@ -181,9 +181,7 @@ void Film::read_pass(PassKind kind, float* out) const {
 }
 
 void Film::read_replicates(double* out, int64_t* counts) const {
-    uint32_t least = ~0u;
-    for (int index = 0; index < tile_count_; ++index)
-        least = std::min(least, tiles_[index].samples_published.load(std::memory_order_acquire));
+    const uint32_t least = least_samples();
     for (int r = 0; r < kReplicates; ++r) counts[r] = replicate_count(least, r);
     const int64_t plane = static_cast<int64_t>(width()) * height() * 3;
     std::fill(out, out + plane * kReplicates, 0.0);

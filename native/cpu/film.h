@@ -1,6 +1,7 @@
 /// Sums of samples of a picture, kept apart by replicate, tile by tile.
 #pragma once
 
+#include <algorithm>
 #include <atomic>
 #include <cstdint>
 #include <memory>
@@ -85,8 +86,12 @@ class Film {
     bool halved() const { return layout_.halved; }
     int64_t rejected() const { return rejected_.load(std::memory_order_relaxed); }
     const FilmPasses& passes() const { return layout_.passes; }
+    /// Samples that every tile has.
+    uint32_t least_samples() const;
     /// Replicates that have a sample in every tile.
-    int complete_replicates() const;
+    int complete_replicates() const {
+        return static_cast<int>(std::min<uint32_t>(least_samples(), replicates_));
+    }
 
     /// Adds finished paths of `tile`, which the caller has locked; what is not finite is counted
     /// and dropped.

@@ -30,30 +30,25 @@ double replicate_luminance(const PixelSums& at, int r) {
     return (0.2126 * sum[0] + 0.7152 * sum[1] + 0.0722 * sum[2]) / at.counts[r];
 }
 
-/// Unbiased variance of the mean; replicates of a half count alike, all others by their samples.
-double variance_of_mean(const PixelSums& at, const double* means, int replicates, bool halved) {
-    if (halved) {
-        double total = 0.0;
-        for (int half = 0; half < 2; ++half) {
-            const double* first = means + half * kHalfReplicates;
-            double mean = 0.0, spread = 0.0;
-            for (int r = 0; r < kHalfReplicates; ++r) mean += first[r] / kHalfReplicates;
-            for (int r = 0; r < kHalfReplicates; ++r)
-                spread += (first[r] - mean) * (first[r] - mean);
-            total += spread / (kHalfReplicates - 1);
-        }
-        return total / (2.0 * kReplicates);
-    }
+/// Unbiased variance of the mean of all samples of replicates [first, last), whose means are given.
+double variance_between(const PixelSums& at, const double* means, int first, int last) {
     double n = 0.0, sum = 0.0, spread = 0.0;
-    for (int r = 0; r < replicates; ++r) {
+    for (int r = first; r < last; ++r) {
         n += at.counts[r];
         sum += at.counts[r] * means[r];
     }
-    for (int r = 0; r < replicates; ++r) {
+    for (int r = first; r < last; ++r) {
         const double off = means[r] - sum / n;
         spread += at.counts[r] * off * off;
     }
-    return spread / ((replicates - 1) * n);
+    return spread / ((last - first - 1) * n);
+}
+
+/// Of the picture: the mean of all samples, or that of two halves.
+double variance_of_mean(const PixelSums& at, const double* means, int replicates, bool halved) {
+    if (!halved) return variance_between(at, means, 0, replicates);
+    return 0.25 * (variance_between(at, means, 0, kHalfReplicates) +
+                   variance_between(at, means, kHalfReplicates, kReplicates));
 }
 
 PixelSpread spread_of(const PixelSums& at, int replicates, bool halved) {

@@ -148,7 +148,7 @@ void RenderJob::run_allotted(QueueStorage& storage) {
     TileTask task;
     while (take_task(&task)) {
         const bool whole = render_task(task, storage);
-        if (whole) end_task(task);
+        if (whole) allotment_.record(task);
         const std::lock_guard<std::mutex> hold(plan_lock_);
         --busy_;
         exhausted_ = exhausted_ || !whole;
@@ -195,10 +195,6 @@ bool RenderJob::render_task(const TileTask& task, QueueStorage& storage) {
     for (uint32_t first = film_.tile(task.tile).samples_done; first < end; first += kReplicates)
         if (should_stop() || !render_work({task.tile, first, kReplicates}, storage)) return false;
     return true;
-}
-
-void RenderJob::end_task(const TileTask& task) {
-    allotment_.record(task);
 }
 
 /// Another thread may still be at this tile's pass before: sums are made in one order only.
@@ -292,7 +288,7 @@ RenderProgress RenderJob::progress() const {
     state.stopped_by = state.done ? stopped_by_.load() : StopReason::none;
     state.samples = done / pixels;
     state.target = request_.is_allotted()
-                       ? int64_t{kReplicates} * std::max(most_per_replicate(request_.samples), 1u)
+                       ? int64_t{kReplicates} * most_per_replicate(request_.samples)
                        : request_.samples;
     state.seconds = std::chrono::duration<double>(until - start_).count();
     state.rays = {

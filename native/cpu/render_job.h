@@ -71,7 +71,6 @@ class RenderJob {
     bool take_task(TileTask* task);
     bool render_task(const TileTask& task, QueueStorage& storage);
     void keep_snapshots(const TileTask& task);
-    void end_task(const TileTask& task);
     void render_centre(const Chunk& chunk, QueueStorage& storage, std::mutex& lock);
     bool render_work(const Work& work, QueueStorage& storage);
     bool wait_for_turn(const Work& work) const;

@@ -15,6 +15,8 @@ from trg_blender.engine.result import records  # noqa: E402
 from trg_blender.engine.to_blender.program_runner import ProgramFailure  # noqa: E402
 from trg_blender.ui import registration  # noqa: E402
 
+from .stage import default_cube, read_exr, write_exr  # noqa: E402
+
 SIZE = (48, 36)
 
 pytestmark = pytest.mark.skipif(
@@ -31,30 +33,14 @@ def registered():
 
 @pytest.fixture
 def cube():
-    """Blender's default scene, small, for TRG."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True)
-    scene = bpy.context.scene
-    scene.render.engine = "TRG"
-    scene.render.resolution_x, scene.render.resolution_y = SIZE
-    scene.trg.samples = 16
-    return scene
+    return default_cube(SIZE, 16)
 
 
 def render(scene, path, layers=False):
     """Renders to a float EXR; gives {channel: (h, w)} with the top row first, as files have it."""
-    OpenEXR = pytest.importorskip("OpenEXR")
-    image = scene.render.image_settings
-    if hasattr(image, "media_type"):
-        image.media_type = "MULTI_LAYER_IMAGE" if layers else "IMAGE"
-    image.file_format = "OPEN_EXR_MULTILAYER" if layers else "OPEN_EXR"
-    image.color_mode, image.color_depth = "RGBA", "32"
-    scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True)
-    channels = {}
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        for part in file.parts:
-            channels.update({name: each.pixels for name, each in part.channels.items()})
-    return channels
+    pytest.importorskip("OpenEXR")
+    write_exr(scene, path, layers)
+    return read_exr(path)[0]
 
 
 def rgb(channels):

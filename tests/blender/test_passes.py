@@ -8,13 +8,15 @@ import numpy as np
 import pytest
 
 bpy = pytest.importorskip("bpy")
-OpenEXR = pytest.importorskip("OpenEXR")
+pytest.importorskip("OpenEXR")
 
 from trg_blender.engine import result  # noqa: E402
 from trg_blender.engine.cryptomatte import id_bits, id_of, murmur3  # noqa: E402
 from trg_blender.engine.devices import find_device  # noqa: E402
 from trg_blender.engine.passes import PASS_CHANNELS, PASS_NAMES  # noqa: E402
 from trg_blender.ui import pass_panels, registration  # noqa: E402
+
+from .stage import default_cube, read_exr, write_exr  # noqa: E402
 
 SIZE = (32, 24)
 
@@ -33,11 +35,7 @@ def registered():
 @pytest.fixture
 def cube():
     """Blender's default scene, small, for TRG; no pass is asked for."""
-    bpy.ops.wm.read_homefile(use_factory_startup=True)
-    scene = bpy.context.scene
-    scene.render.engine = "TRG"
-    scene.render.resolution_x, scene.render.resolution_y = SIZE
-    scene.trg.samples = 4
+    scene = default_cube(SIZE, 4)
     for switch in switches():
         set_switch(scene.view_layers[0], switch, False)
     return scene
@@ -60,21 +58,13 @@ def ask_for_all(layer):
 
 def render_layers(scene, path):
     """Renders to a multi-layer EXR; gives ({pass: {channel: (h, w)}}, header), without the layer's name."""
-    image = scene.render.image_settings
-    if hasattr(image, "media_type"):
-        image.media_type = "MULTI_LAYER_IMAGE"
-    image.file_format, image.color_depth = "OPEN_EXR_MULTILAYER", "32"
-    scene.render.filepath = str(path)
-    bpy.ops.render.render(write_still=True)
-    layer = scene.view_layers[0].name + "."
-    found, header = {}, {}
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        for part in file.parts:
-            header.update(part.header)
-            for name, channel in part.channels.items():
-                if name.startswith(layer):
-                    group, _, last = name[len(layer) :].rpartition(".")
-                    found.setdefault(group, {})[last] = np.array(channel.pixels)
+    write_exr(scene, path, layers=True)
+    channels, header = read_exr(path)
+    layer, found = scene.view_layers[0].name + ".", {}
+    for name, channel in channels.items():
+        if name.startswith(layer):
+            group, _, last = name[len(layer) :].rpartition(".")
+            found.setdefault(group, {})[last] = channel
     return found, header
 
 

@@ -13,7 +13,9 @@ import numpy as np
 import pytest
 
 pytest.importorskip("bpy")
-OpenEXR = pytest.importorskip("OpenEXR")
+pytest.importorskip("OpenEXR")
+
+from .stage import read_exr  # noqa: E402
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -73,15 +75,6 @@ def program(tmp_path):
     return path
 
 
-def read_exr(path):
-    """All channels by name, float32 (h, w)."""
-    channels = {}
-    with OpenEXR.File(str(path), separate_channels=True) as file:
-        for part in file.parts:
-            channels.update({name: np.array(each.pixels) for name, each in part.channels.items()})
-    return channels
-
-
 def test_a_blend_file_to_png_with_a_report(cube, tmp_path):
     """The folder is made, the current frame is rendered, the paragraph and the report say the same."""
     picture, report = tmp_path / "new" / "folder" / "cube.png", tmp_path / "reports" / "cube.json"
@@ -101,7 +94,7 @@ def test_a_blend_file_to_png_with_a_report(cube, tmp_path):
 def test_exr_is_float_and_same_as_blenders_own_render(cube, tmp_path):
     """bpy.ops.render.render in a process without the command gives the same pixels."""
     assert trg("render", cube, "-o", tmp_path / "cube.exr", "--quiet").returncode == 0
-    ours = read_exr(tmp_path / "cube.exr")
+    ours, _ = read_exr(tmp_path / "cube.exr")
     other = tmp_path / "other.exr"
     make_blend(
         tmp_path / "again.blend",
@@ -110,7 +103,7 @@ def test_exr_is_float_and_same_as_blenders_own_render(cube, tmp_path):
         f"scene.render.filepath = {str(other)!r}\n"
         "bpy.ops.render.render(write_still=True)",
     )
-    theirs = read_exr(other)
+    theirs, _ = read_exr(other)
     for name in "RGB":
         assert ours[name].dtype == np.float32 and ours[name].std() > 0.005
         np.testing.assert_array_equal(ours[name], theirs[name])
@@ -201,13 +194,13 @@ def test_a_program_to_png_and_layered_exr(program, tmp_path):
     report = tmp_path / "r.json"
     done = trg("render", program, "-o", tmp_path / "one.exr", "--samples", 8, "--report", report)
     assert done.returncode == 0, done.stderr
-    channels = read_exr(tmp_path / "one.exr")
+    channels, _ = read_exr(tmp_path / "one.exr")
     assert channels["ViewLayer.Combined.R"].shape == (36, 64)
     assert {"ViewLayer.Depth.Z", "ViewLayer.Normal.X"} <= set(channels)
     assert json.loads(report.read_text())["seconds"]["script"] > 0
     done = trg("render", program, "-o", tmp_path / "two.exr", "--samples", 8, "--frame", 2)
     assert done.returncode == 0, done.stderr
-    second = read_exr(tmp_path / "two.exr")["ViewLayer.Combined.R"]
+    second = read_exr(tmp_path / "two.exr")[0]["ViewLayer.Combined.R"]
     assert np.abs(second - channels["ViewLayer.Combined.R"]).mean() > 0.01
     assert trg("render", program, "-o", tmp_path / "p.png", "--size", "20x20", "--quiet").returncode == 0
     assert int.from_bytes((tmp_path / "p.png").read_bytes()[16:20], "big") == 20

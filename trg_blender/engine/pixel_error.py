@@ -6,9 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .image_error import STUDENT_95
-from .scene_arrays import Float32, Float64
+from .scene_arrays import LUMINANCE, Float32, Float64
 
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 REACH, WIDE_REACH = 2, 4
 """of the neighbourhoods, in pixels"""
 LONELY_SHARE = 0.8

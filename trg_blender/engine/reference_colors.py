@@ -7,10 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .scene_arrays import Float64
+from .scene_arrays import LUMINANCE, Float64
 from .texture_ops import BLENDS, COLOR_MODELS, TABLE_FLAG
-
-LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 
 
 @dataclass(frozen=True, slots=True)

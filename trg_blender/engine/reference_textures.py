@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from .scene_arrays import CHANNELS, FILTERS, WRAP_MODES, Float64, ImageArrays, Texture
+from .scene_arrays import CHANNELS, FILTERS, LUMINANCE, WRAP_MODES, Float64, ImageArrays, Texture
 
 Taps = list[tuple[NDArray[np.int64], Float64]]
 """texel (-1: none) and weight of each that a look-up mixes along one axis"""
@@ -54,7 +54,7 @@ def look_up(picture: Picture, texture: Texture, uv: Float64) -> Float64:
         return texels[:, :3]
     if CHANNELS[texture.channel] == "alpha":
         return np.repeat(texels[:, 3:], 3, axis=1)
-    return np.repeat(texels[:, :3] @ np.array([[0.2126], [0.7152], [0.0722]]), 3, axis=1)
+    return np.repeat(texels[:, :3] @ LUMINANCE[:, None], 3, axis=1)
 
 
 def look_up_texels(picture: Picture, texture: Texture, x: Float64, y: Float64) -> Float64:

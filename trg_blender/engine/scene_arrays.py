@@ -22,6 +22,9 @@ Float64 = NDArray[np.float64]
 Int32 = NDArray[np.int32]
 Color = tuple[float, float, float]
 
+LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
+"""(3,) weights of linear Rec.709"""
+
 WRAP_MODES = ("repeat", "extend", "clip", "mirror")
 FILTERS = ("linear", "closest", "cubic")
 CHANNELS = ("color", "alpha", "luminance")

@@ -10,6 +10,7 @@ import bpy
 from ..engine.result import records
 from ..engine.run_text import ENGINE_ID
 from . import live_parameters, pass_panels
+from .engine_panel import EnginePanel
 
 ADOPTED_BY_NAME = {
     "MATERIAL_PT_preview",
@@ -22,15 +23,8 @@ ADOPTED_BY_NAME = {
 """Panels that Blender writes for EEVEE and that fit TRG; the ones for every engine say BLENDER_RENDER."""
 
 
-class _RenderPanel:
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
+class _RenderPanel(EnginePanel):
     bl_context = "render"
-    COMPAT_ENGINES = {ENGINE_ID}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return bool(context.engine in cls.COMPAT_ENGINES)
 
 
 class TRG_RENDER_PT_program(_RenderPanel, bpy.types.Panel):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import bpy
 
-from ..engine.run_text import ENGINE_ID
+from .engine_panel import EnginePanel
 
 DATA = ("z", "mist", "position", "normal", "uv", "object_index", "material_index")
 LIGHT = ("diffuse", "glossy", "transmission")
@@ -12,15 +12,8 @@ OTHER_LIGHT = ("emit", "environment", "ambient_occlusion")
 MATTES = ("object", "material", "asset")
 
 
-class _PassPanel:
-    bl_space_type = "PROPERTIES"
-    bl_region_type = "WINDOW"
+class _PassPanel(EnginePanel):
     bl_context = "view_layer"
-    COMPAT_ENGINES = {ENGINE_ID}
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return bool(context.engine in cls.COMPAT_ENGINES)
 
 
 class TRG_VIEWLAYER_PT_passes(_PassPanel, bpy.types.Panel):
