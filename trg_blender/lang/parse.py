@@ -85,7 +85,7 @@ class Parser:
         elif cursor.sees(";"):
             cursor.next()
             made = ast.Block(token.span, ())
-        elif token.text == "include" and cursor.tokens[cursor.at + 1].text == "(":
+        elif token.text == "include" and self._sees_file_name():
             made = self._include()
         elif token.text == "export" and cursor.tokens[cursor.at + 1].kind == "name":
             made = self._export()
@@ -233,6 +233,11 @@ class Parser:
                 break
             self._recovering(body)
         return ast.Case(start, value, tuple(body))
+
+    def _sees_file_name(self) -> bool:
+        """Whether a file is meant after the word `include`: a bare string lacks its parenthesis only."""
+        after = self.cursor.tokens[self.cursor.at + 1]
+        return after.text == "(" or after.kind == "string"
 
     def _include(self) -> ast.Include:
         cursor = self.cursor

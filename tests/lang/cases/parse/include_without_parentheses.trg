@@ -1,0 +1,1 @@
+include "a.trg";   //! E201@9
