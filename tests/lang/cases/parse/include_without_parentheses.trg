@@ -1,1 +1,1 @@
-include "a.trg";   //! E201@9
+include "a.trg";   //! E201@8
