@@ -92,7 +92,7 @@ Workload workload_of(const World& world, double rays, int threads) {
             work.triangles += static_cast<double>(world.meshes[mesh].triangles.size());
     bool merged = false;
     for (const Instance& instance : world.instances) {
-        if (instance.identity && uses[instance.mesh] == 1)
+        if (world.merge && instance.identity && uses[instance.mesh] == 1)
             merged = true;
         else
             work.placed += 1;

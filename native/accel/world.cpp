@@ -1,10 +1,26 @@
 #include "accel/world.h"
 
+#include <unordered_map>
 #include <utility>
 
 #include "accel/world_index.h"
 
 namespace trg {
+
+namespace {
+
+/// The soups of single meshes outlive the index of `world`.
+void release_soups(World& world) {
+    if (!world.index) return;
+    std::unordered_map<const Soup*, std::shared_ptr<Soup>> owners;
+    for (const auto& soup : world.index->soups) owners[soup.get()] = soup;
+    world.kept.assign(world.meshes.size(), nullptr);
+    for (size_t mesh = 0; mesh < world.meshes.size(); ++mesh)
+        if (const Soup* soup = world.index->soup_of_mesh[mesh]) world.kept[mesh] = owners[soup];
+    world.index.reset();
+}
+
+}  // namespace
 
 Instance make_instance(int mesh, const Transform& object_to_world) {
     const bool identity = is_identity(object_to_world);
@@ -21,6 +37,16 @@ int add_mesh(World& world, Mesh mesh) {
     world.index.reset();
     world.meshes.push_back(std::move(mesh));
     return static_cast<int>(world.meshes.size()) - 1;
+}
+
+int take_mesh(World& to, World& from, int mesh) {
+    release_soups(from);
+    const int number = add_mesh(to, std::exchange(from.meshes[mesh], Mesh{}));
+    if (static_cast<size_t>(mesh) < from.kept.size() && from.triangle_test == to.triangle_test) {
+        to.kept.resize(to.meshes.size());
+        to.kept[number] = std::move(from.kept[mesh]);
+    }
+    return number;
 }
 
 int add_instance(World& world, int mesh, const Transform& object_to_world) {

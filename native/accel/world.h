@@ -46,12 +46,15 @@ struct BuildStats {
     int64_t triangles = 0;
     int64_t instances = 0;
     int64_t degenerate_triangles = 0;
+    int64_t built_trees = 0;  // indices over triangles of meshes that were built
+    int64_t kept_trees = 0;   // and that came along from a world before
     AccelKind accel = AccelKind::none;
     std::string reason;
 };
 
-/// What `build_world` makes; private to room accel.
+/// What `build_world` makes, and the index over one mesh; private to room accel.
 struct WorldIndex;
+struct Soup;
 
 struct World {
     AccelKind accel = AccelKind::automatic;
@@ -60,6 +63,8 @@ struct World {
     std::vector<Mesh> meshes;
     std::vector<Instance> instances;
     std::vector<Transform> motion_keys;  // of all that move, in a row
+    bool merge = true;  // one index for all meshes used once that stand where they are
+    std::vector<std::shared_ptr<Soup>> kept;  // by mesh: built in a world before; none or null: not
     std::shared_ptr<WorldIndex> index;
 };
 
@@ -69,6 +74,10 @@ Instance make_instance(int mesh, const Transform& object_to_world);
 /// Adds a mesh (indices must lie within `vertices`; none are looked at where `shape` is not
 /// triangles); it shows only through instances.
 int add_mesh(World& world, Mesh mesh);
+
+/// Moves a mesh with its index out of `from`, which then has an empty one there and must be built
+/// anew before it can be queried. The next build of `to` keeps the index where it fits.
+int take_mesh(World& to, World& from, int mesh);
 
 /// Adds such a copy to the world.
 int add_instance(World& world, int mesh, const Transform& object_to_world);

@@ -110,29 +110,47 @@ Shares share_instances(const World& world) {
     Shares shares;
     for (size_t k = 0; k < world.instances.size(); ++k) {
         const Instance& instance = world.instances[k];
-        const bool merge = instance.identity && uses[instance.mesh] == 1 &&
+        const bool merge = world.merge && instance.identity && uses[instance.mesh] == 1 &&
                            world.meshes[instance.mesh].shape == Shape::triangles;
         (merge ? shares.merged : shares.placed).push_back(static_cast<int32_t>(k));
     }
     return shares;
 }
 
+/// The soup that came along with `mesh`, where it is of the kind asked for; else null.
+std::shared_ptr<Soup> kept_soup(const World& world, int32_t mesh, AccelKind accel) {
+    if (static_cast<size_t>(mesh) >= world.kept.size() || !world.kept[mesh]) return nullptr;
+    const Soup& soup = *world.kept[mesh];
+    return soup.accel == accel || soup.triangles == 0 ? world.kept[mesh] : nullptr;
+}
+
 /// Soups of the meshes that are used, one each, but one for all that are merged.
-void build_soups(const World& world, const SoupSettings& settings, WorldIndex& index) {
-    const auto keep = [&](Soup soup) {
-        index.soups.push_back(std::make_unique<Soup>(std::move(soup)));
+void build_soups(const World& world, const SoupSettings& settings, WorldIndex& index,
+                 BuildStats* stats) {
+    const auto keep = [&](std::shared_ptr<Soup> soup) {
+        index.soups.push_back(std::move(soup));
         return index.soups.back().get();
+    };
+    const auto build = [&](Soup soup) {
+        ++stats->built_trees;
+        return keep(std::make_shared<Soup>(std::move(soup)));
     };
     index.soup_of_mesh.assign(world.meshes.size(), nullptr);
     Shares shares = share_instances(world);
     if (shares.merged.size() > 1)
-        index.merged = keep(build_merged_soup(world, shares.merged, settings));
+        index.merged = build(build_merged_soup(world, shares.merged, settings));
     else
         shares.placed.insert(shares.placed.end(), shares.merged.begin(), shares.merged.end());
     for (int32_t number : shares.placed) {
-        Soup*& soup = index.soup_of_mesh[world.instances[number].mesh];
-        if (!soup)
-            soup = keep(build_mesh_soup(world.meshes[world.instances[number].mesh], settings));
+        const int32_t mesh = world.instances[number].mesh;
+        Soup*& soup = index.soup_of_mesh[mesh];
+        if (soup) continue;
+        if (std::shared_ptr<Soup> known = kept_soup(world, mesh, settings.accel)) {
+            ++stats->kept_trees;
+            soup = keep(std::move(known));
+        } else {
+            soup = build(build_mesh_soup(world.meshes[mesh], settings));
+        }
     }
 }
 
@@ -221,7 +239,8 @@ BuildStats build_world(World& world, int threads, double rays) {
     index->kernels = kernels_of(world.isa);
 
     index->accel = stats.accel;
-    build_soups(world, {stats.accel, world.triangle_test, threads}, *index);
+    build_soups(world, {stats.accel, world.triangle_test, threads}, *index, &stats);
+    world.kept.clear();
     place_soups(world, *index, threads);
 
     count_up(*index, &stats);

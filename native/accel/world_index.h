@@ -19,7 +19,7 @@ struct Placement {
 struct WorldIndex {
     TriangleTest triangle_test = TriangleTest::watertight;
     AccelKind accel = AccelKind::none;
-    std::vector<std::unique_ptr<Soup>> soups;
+    std::vector<std::shared_ptr<Soup>> soups;
     std::vector<Soup*> soup_of_mesh;  // null: not placed, or merged
     Soup* merged = nullptr;
     std::vector<Placement> placements;  // in the order of the leaves of `top`

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include "accel/choose_accel.h"
 #include "py/buffer.h"
@@ -101,6 +102,26 @@ PyObject* add_mesh_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         attributes.slots = copy_ints(optional_buffer<int32_t>(slots, "slots", {count}));
         check_slots(attributes.slots);
         return keep_mesh(self, std::move(mesh), std::move(attributes));
+    });
+}
+
+PyObject* take_mesh_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        PyObject* source;
+        long long mesh;
+        const char* const names[] = {"source", "mesh", nullptr};
+        parse_arguments(args, kwargs, "OL", names, &source, &mesh);
+        if (Py_TYPE(source) != Py_TYPE(self) || source == self)
+            throw ArgumentError("source: expected another scene");
+        Scene& scene = scene_to_change(self);
+        Scene& from = scene_to_change(source);
+        if (mesh < 0 || mesh >= static_cast<long long>(from.world.meshes.size()))
+            throw ArgumentError("mesh: index " + std::to_string(mesh) + " of " +
+                                std::to_string(from.world.meshes.size()) + " meshes");
+        scene.attributes.push_back({});
+        const int number = take_mesh(scene.world, from.world, static_cast<int>(mesh));
+        scene.attributes[number] = std::exchange(from.attributes[mesh], {});
+        return checked(PyLong_FromLong(number));
     });
 }
 
@@ -204,8 +225,9 @@ PyObject* build_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         int threads = 0;
         double rays = 0;
-        const char* const names[] = {"threads", "rays", nullptr};
-        parse_arguments(args, kwargs, "|id", names, &threads, &rays);
+        int merge = 1;
+        const char* const names[] = {"threads", "rays", "merge", nullptr};
+        parse_arguments(args, kwargs, "|idp", names, &threads, &rays, &merge);
         check_threads(threads);
         if (!(rays >= 0)) throw ArgumentError("rays: expected a number from 0 on");
         Scene& scene = scene_to_change(self);
@@ -213,15 +235,18 @@ PyObject* build_method(PyObject* self, PyObject* args, PyObject* kwargs) {
         {
             const SceneChange change(self);
             const WithoutGil unlocked;
+            scene.world.merge = merge != 0;
             stats = build_world(scene.world, threads, rays);
         }
         return checked(Py_BuildValue(
-            "{s:d, s:L, s:L, s:L, s:L, s:L, s:s, s:s}", "seconds", stats.seconds, "bytes",
+            "{s:d, s:L, s:L, s:L, s:L, s:L, s:L, s:L, s:s, s:s}", "seconds", stats.seconds, "bytes",
             static_cast<long long>(stats.bytes), "nodes", static_cast<long long>(stats.nodes),
             "triangles", static_cast<long long>(stats.triangles), "instances",
             static_cast<long long>(stats.instances), "degenerate_triangles",
-            static_cast<long long>(stats.degenerate_triangles), "accel", accel_name(stats.accel),
-            "reason", stats.reason.c_str()));
+            static_cast<long long>(stats.degenerate_triangles), "built_trees",
+            static_cast<long long>(stats.built_trees), "kept_trees",
+            static_cast<long long>(stats.kept_trees), "accel", accel_name(stats.accel), "reason",
+            stats.reason.c_str()));
     });
 }
 
@@ -242,6 +267,10 @@ Transform checked_transform(const float* source, const char* name, int64_t row) 
 PyMethodDef kSceneGeometryMethods[] = {
     {"add_mesh", as_method(add_mesh_method), METH_VARARGS | METH_KEYWORDS,
      "add_mesh(vertices, triangles, normals=None, uvs=None, slots=None) -> mesh index"},
+    {"take_mesh", as_method(take_mesh_method), METH_VARARGS | METH_KEYWORDS,
+     "take_mesh(source, mesh) -> mesh index\n\n"
+     "Moves a mesh with all that belongs to it and its index out of another scene, which has an "
+     "empty one there from then on and must be built anew."},
     {"add_sphere", add_shape_method<Shape::sphere>, METH_NOARGS,
      "add_sphere() -> mesh index\n\nThe unit sphere round the origin."},
     {"add_plane", add_shape_method<Shape::plane>, METH_NOARGS,
@@ -255,8 +284,9 @@ PyMethodDef kSceneGeometryMethods[] = {
     {"add_instances", as_method(add_instances_method), METH_VARARGS | METH_KEYWORDS,
      "add_instances(mesh, transforms, slot_materials=None) -> index of the first"},
     {"build", as_method(build_method), METH_VARARGS | METH_KEYWORDS,
-     "build(threads=0, rays=0) -> dict of statistics\n\n"
-     "rays: about how many will be traced (0: unknown); accel='auto' chooses for them"},
+     "build(threads=0, rays=0, merge=True) -> dict of statistics\n\n"
+     "rays: about how many will be traced (0: unknown); accel='auto' chooses for them; merge: one "
+     "index for all meshes used once that stand where they are"},
     {nullptr, nullptr, 0, nullptr}};
 
 }  // namespace trg::py

@@ -62,6 +62,10 @@ class BuildStats:
     instances: int
     degenerate_triangles: int
     """triangles left out: coordinates not finite or above 1e18, or no area"""
+    built_trees: int
+    """indices of meshes that were built"""
+    kept_trees: int
+    """and that came along from a scene before"""
     accel: str
     """bvh, grid, grid2, tree or none"""
     reason: str

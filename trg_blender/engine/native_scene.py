@@ -28,9 +28,31 @@ def build_native_scene(
 ) -> tuple[Any, dict[str, Any]]:
     """The built native scene and its build statistics. The arrays are copied."""
     result = native.Scene(accel=settings.accel, triangle_test=settings.triangle_test)
-    for number, mesh in enumerate(scene.meshes):
+    for mesh in scene.meshes:
         add_mesh(result, mesh)
-        add_attributes(result, number, mesh)
+    return result, finish_native_scene(result, scene, settings, merge=True)
+
+
+def finish_native_scene(
+    result: Any, scene: SceneArrays, settings: RenderSettings, merge: bool
+) -> dict[str, Any]:
+    """Everything but the meshes, which `result` has; build statistics.
+
+    `merge`: meshes used once that stand where they are may share an index.
+    """
+    add_instances(result, scene)
+    set_randoms(result, scene)
+    set_textures(result, scene)
+    set_tables(result, scene)
+    if scene.environment is not None:
+        add_environment(result, scene)
+    if scene.pass_data is not None:
+        set_pass_data(result, scene, scene.pass_data)
+    set_view(result, scene, settings)
+    return dict(result.build(settings.threads, expected_rays(scene, settings), merge))
+
+
+def add_instances(result: Any, scene: SceneArrays) -> None:
     for instance in scene.instances:
         transforms = np.ascontiguousarray(instance.transforms, dtype=np.float32)
         first = result.add_instances(
@@ -38,25 +60,25 @@ def build_native_scene(
         )
         if instance.motion is not None:
             set_motion(result, first, instance.motion)
-    set_randoms(result, scene)
-    set_textures(result, scene)
+
+
+def set_tables(result: Any, scene: SceneArrays) -> None:
+    """Materials, lights and the constant world."""
     result.set_materials(pack_table(scene.materials, MATERIAL_FIELDS))
     result.set_lights(pack_table(scene.lights, LIGHT_FIELDS))
     result.set_world(*(float(value) for value in scene.world))
-    if scene.environment is not None:
-        add_environment(result, scene)
-    if scene.pass_data is not None:
-        set_pass_data(result, scene, scene.pass_data)
+
+
+def set_view(result: Any, scene: SceneArrays, settings: RenderSettings) -> None:
+    """How the scene is looked at: camera, filter, antialiasing, and the constants of `classic`."""
     result.set_antialiasing(settings.aa, settings.aa_side, settings.frame)
     if settings.integrator == "classic":
         result.set_classic(pack_classic(scene), scene.ambient)
     camera = scene.camera
-    matrix = np.ascontiguousarray(camera.matrix, dtype=np.float64)
-    window = np.array(camera.window, dtype=np.float64)
     result.set_camera(
         camera.kind,
-        matrix,
-        window,
+        np.ascontiguousarray(camera.matrix, dtype=np.float64),
+        np.array(camera.window, dtype=np.float64),
         camera.clip_start,
         camera.clip_end,
         camera.aperture,
@@ -68,7 +90,6 @@ def build_native_scene(
     if camera.motion is not None:
         result.set_camera_motion(np.ascontiguousarray(camera.motion, dtype=np.float64))
     result.set_filter(settings.pixel_filter, settings.filter_width)
-    return result, dict(result.build(settings.threads, expected_rays(scene, settings)))
 
 
 def set_motion(result: Any, first: int, motion: Float32) -> None:
@@ -80,6 +101,11 @@ def set_motion(result: Any, first: int, motion: Float32) -> None:
 
 def set_textures(result: Any, scene: SceneArrays) -> None:
     """Images in their own size, textures and programs."""
+    add_images(result, scene)
+    set_look_ups(result, scene)
+
+
+def add_images(result: Any, scene: SceneArrays) -> None:
     for image in scene.images:
         pixels = image.pixels
         if pixels.dtype == np.float16:
@@ -87,6 +113,10 @@ def set_textures(result: Any, scene: SceneArrays) -> None:
         elif pixels.dtype != np.uint8:
             pixels = pixels.astype(np.float32, copy=False)
         result.add_image(np.ascontiguousarray(pixels), image.srgb)
+
+
+def set_look_ups(result: Any, scene: SceneArrays) -> None:
+    """Textures and programs over the images that are there."""
     result.set_textures(pack_table(scene.textures, TEXTURE_FIELDS))
     programs = scene.programs
     result.set_programs(programs.ops, programs.constants, programs.programs)
@@ -120,15 +150,6 @@ def set_randoms(result: Any, scene: SceneArrays) -> None:
     result.set_randoms(np.concatenate(parts).astype(np.float32, copy=False))
 
 
-def add_attributes(result: Any, number: int, mesh: MeshArrays) -> None:
-    """What texture programs read of a mesh beside its main UV map."""
-    if mesh.shape == "triangles":
-        for attribute, values in mesh.attributes.items():
-            result.set_attribute(number, attribute, np.ascontiguousarray(values, dtype=np.float32))
-    if mesh.texture_space is not None:
-        result.set_texture_space(number, *mesh.texture_space)
-
-
 def expected_rays(scene: SceneArrays, settings: RenderSettings) -> float:
     """About how many rays a render traces: at every surface of a path one to go on and one to a light."""
     surfaces = min(settings.max_bounces + 1, 4)
@@ -148,16 +169,26 @@ def add_environment(result: Any, scene: SceneArrays) -> None:
 
 
 def add_mesh(result: Any, mesh: MeshArrays) -> None:
+    """A mesh with its attributes."""
     if mesh.shape == "sphere":
-        result.add_sphere()
-        return
-    if mesh.shape == "plane":
-        result.add_plane()
-        return
-    result.add_mesh(
-        np.ascontiguousarray(mesh.vertices, dtype=np.float32),
-        np.ascontiguousarray(mesh.triangles, dtype=np.int32),
-        None if mesh.normals is None else np.ascontiguousarray(mesh.normals, dtype=np.float32),
-        None if mesh.uvs is None else np.ascontiguousarray(mesh.uvs, dtype=np.float32),
-        None if mesh.slots is None else np.ascontiguousarray(mesh.slots, dtype=np.int32),
-    )
+        number = result.add_sphere()
+    elif mesh.shape == "plane":
+        number = result.add_plane()
+    else:
+        number = result.add_mesh(
+            np.ascontiguousarray(mesh.vertices, dtype=np.float32),
+            np.ascontiguousarray(mesh.triangles, dtype=np.int32),
+            None if mesh.normals is None else np.ascontiguousarray(mesh.normals, dtype=np.float32),
+            None if mesh.uvs is None else np.ascontiguousarray(mesh.uvs, dtype=np.float32),
+            None if mesh.slots is None else np.ascontiguousarray(mesh.slots, dtype=np.int32),
+        )
+    set_attributes(result, number, mesh)
+
+
+def set_attributes(result: Any, number: int, mesh: MeshArrays) -> None:
+    """What texture programs read of a mesh beside its main UV map."""
+    if mesh.shape == "triangles":
+        for attribute, values in mesh.attributes.items():
+            result.set_attribute(number, attribute, np.ascontiguousarray(values, dtype=np.float32))
+    if mesh.texture_space is not None:
+        result.set_texture_space(number, *mesh.texture_space)

@@ -20,6 +20,7 @@ from .antialiasing import FINEST_GRID
 from .devices import DEVICE_NAMES, Unavailable, find_device
 from .errors import SceneError
 from .from_blender import SceneReader
+from .kept_scene import KeptScene
 from .mfaa import blend_frames
 from .native import ACCELERATORS
 from .pace import Pace
@@ -59,6 +60,9 @@ class Frame:
     file: str
     """the .blend file; empty while it was never saved"""
     seconds: dict[str, float]
+    layer: str
+    persistent: bool
+    """whether the next frame may build upon this one"""
 
 
 @contextlib.contextmanager
@@ -94,6 +98,8 @@ class TRGRenderEngine(bpy.types.RenderEngine):
 
     frame: Frame | None = None
     scene_name: str = ""
+    kept: dict[str, KeptScene] | None = None
+    """by view layer; only with persistent data, where Blender keeps the engine as well"""
 
     def refuse(self, failure: Failure) -> None:
         """No picture: report() stops the render and the file; error_set() shows it in the image editor."""
@@ -139,7 +145,16 @@ class TRGRenderEngine(bpy.types.RenderEngine):
         for warning in arrays.warnings:
             self.report({"WARNING"}, warning)
         seconds = {"sync": time.perf_counter() - begin}
-        return Frame(self.scene_name, arrays, settings, scene.frame_current, data.filepath, seconds)
+        return Frame(
+            self.scene_name,
+            arrays,
+            settings,
+            scene.frame_current,
+            data.filepath,
+            seconds,
+            depsgraph.view_layer.name,
+            scene.render.use_persistent_data,
+        )
 
     def _move_to(self, frame: float) -> None:
         """Evaluates the scene at another time, for motion blur."""
@@ -164,7 +179,7 @@ class TRGRenderEngine(bpy.types.RenderEngine):
     def _trace(self, frame: Frame, result: bpy.types.RenderResult) -> bool:
         """Runs the job to its end; True when the user cancelled it (what is there is kept)."""
         self.update_stats("TRG", "building the accelerator")
-        job = session.start(frame.arrays, frame.settings)
+        job = session.start(frame.arrays, frame.settings, self._kept_scene(frame))
         interrupted = False
         try:
             self._follow(job, result)
@@ -181,6 +196,15 @@ class TRGRenderEngine(bpy.types.RenderEngine):
         if interrupted:
             raise RenderCancelled
         return self.test_break()
+
+    def _kept_scene(self, frame: Frame) -> KeptScene | None:
+        """What the layer's next frame may build upon; None, and memory given back, where it may not."""
+        if not frame.persistent:
+            self.kept = None
+            return None
+        if self.kept is None:
+            self.kept = {}
+        return self.kept.setdefault(frame.layer, KeptScene())
 
     def _stamp(self, frame: Frame, layer: str) -> None:
         """Into the whole render's result: Blender forgets the fields of the part that a layer fills."""

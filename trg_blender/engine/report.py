@@ -85,6 +85,7 @@ def build_report(facts: RenderFacts) -> dict[str, Any]:
         "instruction_set": facts.instruction_set,
         "samples": job["samples"],
         "seconds": {**seconds, "total": total_seconds(seconds)},
+        "build": build_section(facts.build),
         "rays": ray_section(job),
         "error": error_section(facts),
         "memory": {
@@ -116,6 +117,17 @@ def with_source(
 
 def total_seconds(parts: dict[str, float | None]) -> float:
     return sum(value for value in parts.values() if value is not None)
+
+
+def build_section(build: dict[str, Any]) -> dict[str, Any]:
+    """What of the index was made for this picture, and what was left from the one before."""
+    whole = {
+        "built_trees": build.get("built_trees"),
+        "kept_trees": build.get("kept_trees", 0),
+        "fitted_trees": 0,
+        "top_level": True,
+    }
+    return {**whole, **build.get("changes", {})}
 
 
 def ray_section(job: dict[str, Any]) -> dict[str, Any]:

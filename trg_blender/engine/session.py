@@ -18,13 +18,14 @@ from .antialiasing import is_deterministic, with_pattern_samples
 from .devices import INTEGRATORS, Unavailable, require_device
 from .errors import SceneError
 from .image_error import Evidence, PictureError, estimate_error
+from .kept_scene import KeptScene
 from .mfaa import SampledFrame
 from .native import ACCELERATORS, load_native
 from .native_scene import build_native_scene
 from .passes import KERNEL_PASSES, PassSource, film_shape, job_passes, read_combined, read_passes
 from .report import HistoryEntry, Progress, RenderFacts, build_report, seconds_left
 from .scene_arrays import Float32, Float64, RenderSettings, SceneArrays
-from .scene_check import check_scene, check_settings
+from .scene_check import check_camera, check_scene, check_settings
 
 __all__ = ["RenderJob", "Result", "SceneError", "Unavailable", "render", "start"]
 
@@ -78,37 +79,50 @@ def render(scene: SceneArrays, settings: RenderSettings) -> Result:
     return job.result()
 
 
-def start(scene: SceneArrays, settings: RenderSettings) -> RenderJob:
+def start(scene: SceneArrays, settings: RenderSettings, kept: KeptScene | None = None) -> RenderJob:
     """Checks and builds the scene and starts tracing.
+
+    With `kept` only what is different from the picture before is built, on the native device.
 
     Raises SceneError for a scene or picture that cannot be, Unavailable for a device, accelerator or
     integrator that is not here.
     """
     check_settings(settings)
     settings = with_pattern_samples(settings)
-    warnings = check_scene(scene)
+    warnings = check_picture(scene, kept)
     require_device(settings.device)
     if settings.integrator not in INTEGRATORS:
         raise Unavailable(f"integrator {settings.integrator}: not built yet in this version")
     if settings.integrator == "classic":
-        kept = tuple(name for name in settings.passes if name in CLASSIC_PASSES)
-        dropped = [name for name in settings.passes if name not in kept]
+        allowed = tuple(name for name in settings.passes if name in CLASSIC_PASSES)
+        dropped = [name for name in settings.passes if name not in allowed]
         warnings += [f"pass {name}: not with the classic integrator" for name in dropped]
-        settings = replace(settings, passes=kept)
+        settings = replace(settings, passes=allowed)
     asked = replace(settings, passes=job_passes(scene, settings))
     if settings.device == "embree":
         warnings += missing_passes(settings)
-    started = start_native(scene, asked) if settings.device == "cpu" else start_reference(scene, asked)
+    started = start_native(scene, asked, kept) if settings.device == "cpu" else start_reference(scene, asked)
     return RenderJob(scene, settings, started, warnings)
 
 
-def start_native(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
+def check_picture(scene: SceneArrays, kept: KeptScene | None) -> list[str]:
+    """check_scene, but of a scene that was rendered before the camera alone."""
+    if kept is None or not kept.knows(scene):
+        return check_scene(scene)
+    check_camera(scene.camera)
+    return []
+
+
+def start_native(scene: SceneArrays, settings: RenderSettings, kept: KeptScene | None) -> StartedJob:
     """`settings.passes` are those of the job."""
     if settings.accel not in ACCELERATORS:
         raise Unavailable(f"accelerator {settings.accel}: not built yet in this version")
     native = load_native()
     try:
-        built, statistics = build_native_scene(native, scene, settings)
+        if kept is None:
+            built, statistics = build_native_scene(native, scene, settings)
+        else:
+            built, statistics = kept.bring(native, scene, settings)
         job = built.start_render(
             settings.width,
             settings.height,
