@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 import bpy
 from bpy.app.handlers import persistent
@@ -40,6 +41,10 @@ class ProgramTable:
 
     def runner_of(self, scene: bpy.types.Scene) -> ProgramRunner:
         return self._runners.setdefault(scene.name, ProgramRunner())
+
+    def forget(self, scene: bpy.types.Scene) -> None:
+        """Have the scene's program compiled and run from its start, its files read again."""
+        self._runners.pop(scene.name, None)
 
     def forget_all(self) -> None:
         self._runners.clear()
@@ -127,6 +132,17 @@ def take_pending_error(scene: bpy.types.Scene | None = None) -> ProgramFailure |
 def program_log(scene: bpy.types.Scene) -> list[str]:
     """What the scene's program printed and was warned about, oldest line first; the list itself."""
     return programs.runner_of(scene).log
+
+
+def last_diagnostics(scene: bpy.types.Scene) -> tuple[lang.Diagnostic, ...]:
+    """The errors for which the scene's program gave no frame when it ran last."""
+    failure = programs.runner_of(scene).last_failure
+    return () if failure is None else failure.diagnostics
+
+
+def files_read(scene: bpy.types.Scene) -> dict[str, Path | None]:
+    """Models and images that the scene's program asked for, by the name it wrote; None: not found."""
+    return programs.runner_of(scene).files_read
 
 
 def program_of(scene: bpy.types.Scene) -> bpy.types.Text | None:

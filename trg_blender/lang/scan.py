@@ -23,7 +23,7 @@ ESCAPES = {"n": "\n", "t": "\t", "r": "\r", "0": "\0", '"': '"', "\\": "\\"}
 
 # The string and comment alternatives are unrolled: the short forms need a backtracking entry for
 # every character, hundreds of megabytes for one long literal.
-_TOKEN = re.compile(
+TOKEN = re.compile(
     r"""
     (?P<space>[ \t\n\f\v]+)
   | (?P<comment>//[^\n]*|/\*[^*]*\*+(?:[^/*][^*]*\*+)*/)
@@ -70,7 +70,7 @@ class _Scanner:
     def run(self) -> list[Token]:
         text, position, end = self.source.text, 0, len(self.source.text)
         name, take, new = self.source.name, self.tokens.append, tuple.__new__
-        find = _TOKEN.match
+        find = TOKEN.match
         while position < end:
             match = find(text, position)
             if match is None:

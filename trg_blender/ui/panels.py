@@ -9,8 +9,9 @@ import bpy
 
 from ..engine.result import records
 from ..engine.run_text import ENGINE_ID
-from . import live_parameters, pass_panels
+from . import pass_panels
 from .engine_panel import EnginePanel
+from .parameter_rows import draw_parameters
 
 ADOPTED_BY_NAME = {
     "MATERIAL_PT_preview",
@@ -49,13 +50,7 @@ class TRG_RENDER_PT_parameters(_RenderPanel, bpy.types.Panel):
         return super().poll(context) and settings.program is not None and bool(settings.parameters.keys())
 
     def draw(self, context: bpy.types.Context) -> None:
-        layout, parameters = self.layout, context.scene.trg.parameters
-        layout.use_property_split = True
-        for name in parameters.keys():  # noqa: SIM118 (not a dict)
-            path = f'["{bpy.utils.escape_identifier(name)}"]'
-            layout.prop(parameters, path, text=name.replace("_", " "), slider=True)
-        for line in live_parameters.failure_of(context.scene).splitlines()[:1]:
-            layout.label(text=line, icon="ERROR")
+        draw_parameters(self.layout, context.scene)
 
 
 class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):

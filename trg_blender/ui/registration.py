@@ -8,8 +8,19 @@ import bpy
 
 from ..engine import render_engine, run_text
 from . import command, live_parameters, operators, panels, preferences, properties
+from .text_editor import parts as text_editor
 
-PARTS = (preferences, properties, render_engine, run_text, live_parameters, operators, panels, command)
+PARTS = (
+    preferences,
+    properties,
+    render_engine,
+    run_text,
+    live_parameters,
+    operators,
+    panels,
+    text_editor,
+    command,
+)
 
 
 def register() -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import time
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 import bpy
@@ -57,6 +58,8 @@ class ProgramRunner:
 
     log: list[str] = field(default_factory=list)
     """what the program printed and was warned about, oldest first"""
+    last_failure: ProgramFailure | None = None
+    """why the last run gave no frame"""
     _digest: str = ""
     _files: TextFiles | None = None
     _own_source: lang.SourceFile | None = None
@@ -90,10 +93,16 @@ class ProgramRunner:
             failure = ProgramFailure(str(error))
         finally:
             self._take_output()
+        self.last_failure = failure
         if failure is not None:
             self._say([failure.text])
             self._restart()
         return ProgramOutcome(frame, failure, counts, self._ended, time.perf_counter() - begin)
+
+    @property
+    def files_read(self) -> dict[str, Path | None]:
+        """Models and images that the program asked for, by the name it wrote; None: not found."""
+        return {} if self._files is None else dict(self._files.read)
 
     def compile(self, scene: bpy.types.Scene, text: bpy.types.Text) -> lang.Program:
         """Compile when the text or anything it includes is not what it was; offer its parameters.

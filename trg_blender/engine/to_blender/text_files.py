@@ -25,6 +25,8 @@ class TextFiles:
         self._own_name = text.name
         self._asked: list[tuple[str, str, SourceFile]] = []
         """(name, asking file, what was found)"""
+        self.read: dict[str, Path | None] = {}
+        """models and images that the program asked for, by the name it wrote; None: not found"""
 
     def resolve_include(self, name: str, from_file: str) -> SourceFile:
         """See FileResolver: a text of the .blend comes before a file. Raises FileError."""
@@ -34,7 +36,10 @@ class TextFiles:
 
     def resolve_file(self, name: str, from_file: str) -> Path | None:
         """See FileResolver."""
-        return self._disk.resolve_file(name, from_file)
+        self.read[name] = None
+        found = self._disk.resolve_file(name, from_file)
+        self.read[name] = found
+        return found
 
     @property
     def sources(self) -> dict[str, SourceFile]:
