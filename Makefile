@@ -23,7 +23,7 @@ JOBS ?= $(shell nproc 2>/dev/null || sysctl -n hw.ncpu)
 
 WHEEL := build/wheelhouse/.done
 SOURCES := $(shell find native -type f -not -path '*/tests/*' 2>/dev/null)
-PACKAGE := $(shell find trg_blender stl -type f -not -name '*.pyc' 2>/dev/null)
+PACKAGE := $(shell find trg_blender stl examples -type f -not -name '*.pyc' 2>/dev/null)
 
 help:
 	@sed -n '1,/^$$/s/^# \{0,1\}//p' Makefile

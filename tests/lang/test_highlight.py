@@ -37,7 +37,9 @@ def test_an_open_comment_reaches_to_the_end():
     assert shown("x /* a\nif") == [[("/* a", "comment")], [("if", "comment")]]
 
 
-@pytest.mark.parametrize("text", ["", "\n\n", '"open', "a ? b @ $ \\ \x00 'c'", "шар = сфера(1);", "/*", "1..2...3"])
+@pytest.mark.parametrize(
+    "text", ["", "\n\n", '"open', "a ? b @ $ \\ \x00 'c'", "шар = сфера(1);", "/*", "1..2...3"]
+)
 def test_any_text_gives_runs_inside_of_its_lines(text: str):
     lines = text.split("\n")
     found = highlight(text)

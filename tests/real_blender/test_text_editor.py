@@ -22,6 +22,7 @@ def test_a_program_is_written_and_run(blender: RealBlender, tmp_path: Path) -> N
     assert "Traceback" not in done.text, done.text
     noted = json.loads(facts.read_text(encoding="utf-8"))
     assert noted["before"] == [["error", 7, 15]]
+    assert "ring.trg:7:15: error" in noted["error"]
     assert noted["cursor_after_wrong_run"] == [6, 14]
     assert noted["fix"] == ["FINISHED"]
     assert noted["after"] == []

@@ -1,4 +1,4 @@
-"""Runs in Blender with its window: works on a program in the text editor, by real keys, and notes what came of it.
+"""Runs in Blender with its window: works on a program in the text editor by real keys, as a user would.
 
 Arguments after `--`: PICTURES OUT.json, a folder for screenshots and the file for the facts.
 """
@@ -23,7 +23,7 @@ Scene.CamSet(640, 360, vec3(0, 4, 9), vec3(0, 1, 0), vec3(0, 1, 0)); // above
 print("balls", count);
 Scene.Render();
 """
-STEP_S = 1.0
+STEP_S = 1.5
 facts = {}
 
 
@@ -58,7 +58,7 @@ def findings():
 
 
 def open_text():
-    _, area, region, space = editor()
+    _, _, region, space = editor()
     text = bpy.data.texts.new("ring.trg")
     text.from_string(PROGRAM)
     text.cursor_set(0)
@@ -66,7 +66,7 @@ def open_text():
     space.show_region_ui = space.show_syntax_highlight = True
     bpy.context.scene.render.engine = "TRG"
     xdotool("windowfocus", xdotool("search", "--onlyvisible", "--class", "blender").split()[0])
-    xdotool("mousemove", str(region.x + region.width // 2), str(900 - region.y - region.height // 3))
+    xdotool("mousemove", str(region.x + region.width // 2), str(900 - region.y - region.height // 2))
 
 
 def show_sidebar():
@@ -80,7 +80,13 @@ def see_mistake():
 
 
 def run_wrong():
-    xdotool("key", "alt+p")
+    """Called, not typed: the message that a key would bring takes the keys after it."""
+    window, area, region, _ = editor()
+    with bpy.context.temp_override(window=window, area=area, region=region):
+        try:
+            bpy.ops.trg.text_run()
+        except RuntimeError as error:
+            facts["error"] = str(error)
 
 
 def note_wrong():

@@ -228,7 +228,7 @@ def replace_all(context: bpy.types.Context, text: bpy.types.Text, source: str) -
         return
     row, column, top = text.current_line_index, text.current_character, context.space_data.top
     bpy.ops.text.select_all()
-    bpy.ops.text.insert(text=source)
+    bpy.ops.text.insert("EXEC_DEFAULT", True, text=source)
     row = min(row, len(text.lines) - 1)
     text.cursor_set(row, character=min(column, len(text.lines[row].body)))
     context.space_data.top = top
