@@ -36,6 +36,10 @@ class TRG_RENDER_PT_program(_RenderPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.template_ID(context.scene.trg, "program", new="text.new", open="text.open")
         self.layout.operator("trg.build")
+        row = self.layout.row(align=True)
+        row.operator("trg.detach_all")
+        if bpy.ops.trg.attach_all.poll():
+            row.operator("trg.attach_all")
 
 
 class TRG_RENDER_PT_parameters(_RenderPanel, bpy.types.Panel):

@@ -7,7 +7,7 @@ import atexit
 import bpy
 
 from ..engine import render_engine, run_text
-from . import command, live_parameters, operators, panels, preferences, properties
+from . import command, live_parameters, object_panel, operators, panels, preferences, properties
 from .text_editor import parts as text_editor
 
 PARTS = (
@@ -18,6 +18,7 @@ PARTS = (
     live_parameters,
     operators,
     panels,
+    object_panel,
     text_editor,
     command,
 )

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 import bpy
 
 from ...lang.scene import MaterialRecord, TextureRecord
+from .edits import is_changed, note_material
 from .images import COLOR_SLOTS, ImageStore
 from .tags import HASH, KEY, ORIGIN, OWNER, blocks_by_key, fingerprint
 
@@ -33,6 +34,8 @@ class MaterialStore:
     images: ImageStore
     made: int = 0
     updated: int = 0
+    warnings: list[str] = field(default_factory=list)
+    """edits by hand that the program's new records replaced"""
     _materials: dict[str, bpy.types.Material] = field(default_factory=dict)
     _done: set[str] = field(default_factory=set)
 
@@ -56,7 +59,12 @@ class MaterialStore:
             self.made += 1
         else:
             self.updated += 1
+            if is_changed(material):
+                self.warnings.append(
+                    f"{material.name}: was edited by hand; the program has changed it and overwritten that"
+                )
         self._write(material, record)
+        note_material(material)
         material[HASH] = digest
         return material
 

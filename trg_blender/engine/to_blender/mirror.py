@@ -97,12 +97,14 @@ class SceneMirror:
         _write_objects(frame, description)
         if description.camera is not None:
             write_picture_size(scene, description.camera)
-            if scene.camera != frame.objects.get(CAMERA_KEY):
-                scene.camera = frame.objects.get(CAMERA_KEY)
+            camera = frame.objects.get(CAMERA_KEY)
+            if camera is not None and scene.camera != camera:
+                scene.camera = camera
         worlds_updated = int(write_world(scene, owner, description, images))
         _keep_modes(collection, description)
         _remove_unused(frame)
         objects = frame.objects
+        self.warnings += [*objects.warnings, *materials.warnings]
         return MirrorCounts(
             objects.made,
             objects.updated,

@@ -10,8 +10,9 @@ import bpy
 from mathutils import Matrix, Quaternion, Vector
 
 from ...lang.scene import ShapeRecord
+from .edits import is_moved, note_pose
 from .placement import MeshRecipe
-from .tags import HASH, KEY, KIND, MEDIUM_DECAY, MEDIUM_INDEX, ORIGIN, PLANE, SPHERE
+from .tags import DETACHED, HASH, KEY, KIND, MEDIUM_DECAY, MEDIUM_INDEX, ORIGIN, PLANE, SPHERE
 
 BULK = 200
 """From this many new or vanished objects on, the collection leaves the scene while it is edited:
@@ -42,13 +43,20 @@ class ObjectStore:
     _objects: dict[str, bpy.types.Object] = field(default_factory=dict)
     _new: list[bpy.types.Object] = field(default_factory=list)
     _wanted: set[str] = field(default_factory=set)
+    _detached: frozenset[str] = frozenset()
+    warnings: list[str] = field(default_factory=list)
+    """edits by hand that the program's new records replaced"""
 
     def __post_init__(self) -> None:
+        self._detached = frozenset(self.collection.get(DETACHED, ()))
         self._objects = {obj[KEY]: obj for obj in self.collection.objects if KEY in obj}
 
     def unchanged(self, key: str, digest: str) -> bool:
-        """Note that the key is wanted; tell whether its object is already what `digest` stands for."""
+        """Note that the key is wanted; tell whether its object is already what `digest` stands for, or the
+        user's own."""
         self._wanted.add(key)
+        if key in self._detached:
+            return True
         obj = self._objects.get(key)
         return obj is not None and obj.get(HASH) == digest
 
@@ -71,6 +79,10 @@ class ObjectStore:
             self.made += 1
         else:
             self.updated += 1
+            if is_moved(obj):
+                self.warnings.append(
+                    f"{obj.name}: was moved by hand; the program has changed it since and moved it back"
+                )
             if obj.data != data:
                 obj.data = data
         obj[HASH] = digest
@@ -102,6 +114,7 @@ def set_pose(obj: bpy.types.Object, pose: Pose) -> None:
         obj.rotation_quaternion = pose.rotation
     if obj.scale != pose.scale:
         obj.scale = pose.scale
+    note_pose(obj)
 
 
 def pose_of_matrix(matrix: Matrix) -> Pose:

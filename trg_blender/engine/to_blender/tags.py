@@ -22,6 +22,12 @@ SPHERE = "trg_sphere"
 """(x, y, z, radius) in object space: the mesh stands for this sphere"""
 PLANE = "trg_plane"
 """(x, y, z, distance) in object space: the mesh stands for this plane"""
+POSE = "trg_pose"
+"""location, rotation and scale that the program gave an object"""
+WRITTEN = "trg_written"
+"""fingerprint of a material's nodes as the program made them"""
+DETACHED = "trg_detached"
+"""keys of the objects that the user took from the program; of its collection"""
 FALLOFF = "trg_falloff"
 MEDIUM_DECAY = "trg_medium_decay"
 MEDIUM_INDEX = "trg_medium_index"
@@ -35,13 +41,19 @@ def fingerprint(*parts: object) -> str:
 
 def mirror_collection(scene: bpy.types.Scene) -> bpy.types.Collection:
     """The scene's own collection "TRG", made when it is not there yet."""
-    for collection in scene.collection.children:
-        if OWNER in collection and collection.library is None:
-            return collection
+    found = collection_of(scene)
+    if found is not None:
+        return found
     collection = bpy.data.collections.new(COLLECTION_NAME)
     collection[OWNER] = uuid.uuid4().hex
     scene.collection.children.link(collection)
     return collection
+
+
+def collection_of(scene: bpy.types.Scene) -> bpy.types.Collection | None:
+    """The collection of the scene's program, when it has made one."""
+    found = (c for c in scene.collection.children if OWNER in c and c.library is None)
+    return next(found, None)
 
 
 def blocks_by_key(blocks: Iterable[bpy.types.ID], owner: str | None = None) -> dict[str, bpy.types.ID]:
