@@ -21,6 +21,7 @@ DONE, WRONG, USAGE, CANCELLED, UNAVAILABLE = range(5)
 COMMANDS = {
     "render": "render a TRG program or a .blend file to a picture",
     "report": "error against run time: curves and a page",
+    "stability": "stiff and extreme cases, each with its figure and verdict",
     "run": "run a TRG program alone: its output and diagnostics",
     "check": "diagnostics of a TRG program, one a line",
     "repl": "TRG line by line",
@@ -57,7 +58,7 @@ def dispatch(words: list[str]) -> int:
 
 
 def build_parser() -> argparse.ArgumentParser:
-    lines = [f"  {name:<8} {text}" for name, text in COMMANDS.items()]
+    lines = [f"  {name:<9} {text}" for name, text in COMMANDS.items()]
     parser = argparse.ArgumentParser(
         prog="trg",
         description="Scenes written as small programs, rendered with their error stated.",
