@@ -67,17 +67,24 @@ def intersections(count: int, seed: int) -> Iterator[Digits]:
     yield from intersection("slivers of 1e5 : 1, up to 2e5 away", spread, rays, seed)
 
 
+ALONE = {"multiscatter": 0.0}
 MATERIALS = {
     "diffuse": Material(specular=0.0),
     "rough diffuse": Material(specular=0.0, diffuse_roughness=1.0),
-    "plastic": Material(roughness=0.3),
-    "metal, roughness 0.3": Material(metallic=1.0, roughness=0.3),
-    "metal, roughness 0.05": Material(metallic=1.0, roughness=0.05),
-    "glass, roughness 0.3": Material(1.0, 1.0, 1.0, transmission=1.0, roughness=0.3),
-    "glass of index 1.001": Material(1.0, 1.0, 1.0, transmission=1.0, roughness=0.3, ior=1.001),
-    "coat": Material(coat=1.0, coat_roughness=0.2),
+    "metal, roughness 0.3": Material(metallic=1.0, roughness=0.3, **ALONE),
+    "metal, roughness 0.05": Material(metallic=1.0, roughness=0.05, **ALONE),
+    "glass, roughness 0.3": Material(1.0, 1.0, 1.0, transmission=1.0, roughness=0.3, **ALONE),
+    "glass, roughness 0.05": Material(1.0, 1.0, 1.0, transmission=1.0, roughness=0.05, **ALONE),
+    "glass of index 1.001": Material(1.0, 1.0, 1.0, transmission=1.0, roughness=0.3, ior=1.001, **ALONE),
+    "metal with energy kept (tables)": Material(metallic=1.0, roughness=0.3),
+    "plastic (tables)": Material(roughness=0.3),
+    "coat (tables)": Material(coat=1.0, coat_roughness=0.2),
     "sheen": Material(sheen_r=1.0, sheen_g=1.0, sheen_b=1.0),
 }
+"""Where energy is kept both renderers read tables that they have computed on their own: that difference is no
+matter of digits."""
+ONE_LOBE = ("diffuse", "rough diffuse", "metal, roughness 0.3", "metal, roughness 0.05")
+"""Others share out their density among lobes, each renderer in its own way."""
 
 
 def directions(count: int, seed: int) -> Float32:
@@ -94,6 +101,8 @@ def shading(count: int, seed: int) -> Iterator[Digits]:
     for name, material in MATERIALS.items():
         found, wanted = evaluate(material, wo, wi), evaluate_reference(material, wo, wi)
         for quantity, single, double in zip(("value", "density"), found, wanted, strict=True):
+            if quantity == "density" and name not in ONE_LOBE:
+                continue
             floor = 1e-6 * np.abs(double).max()
             yield digits(
                 f"shading, {name}", quantity, np.abs(single - double) / np.maximum(np.abs(double), floor)
