@@ -202,9 +202,9 @@ PyObject* pixel_error_method(PyObject* self, PyObject* args, PyObject* kwargs) {
             evidence = measure_pixel_error(film, widths.mutable_data<float>(),
                                            bits.mutable_data<uint8_t>());
         }
-        return checked(Py_BuildValue("{s:d, s:d, s:d, s:d}", "lit", evidence.lit, "unseen",
+        return checked(Py_BuildValue("{s:d, s:d, s:d, s:d, s:d}", "lit", evidence.lit, "unseen",
                                      evidence.unseen, "lonely", evidence.lonely, "lonely_error",
-                                     evidence.lonely_error));
+                                     evidence.lonely_error, "error_pixels", evidence.error_pixels));
     });
 }
 

@@ -23,13 +23,18 @@ STUDENT_95 = {1: 12.7062, 2: 4.3027, 3: 3.1824, 4: 2.7764, 5: 2.5706, 6: 2.4469,
 """Two-sided 95 % points of Student's t by degrees of freedom."""
 
 
-LONELY_ERROR_LIMIT = 0.7
+LONELY_ERROR_LIMIT = 0.9
 """From this share on the error cannot be told: benchmarks/calibration.py shows how it holds below."""
+ERROR_PIXELS_LIMIT = 3.0
+"""Below so many pixels the error hangs on what happened to befall these."""
+HITS_LIMIT = 5.0
+"""Below so many hits, those that were not met could make the error larger by more than a quarter (rule of
+three: of what was never seen 3 may be expected with 95 %; the root of (5 + 3) / 5)."""
 
 
 @dataclass(frozen=True, slots=True)
 class Evidence:
-    """How much of a picture few replicates have found; shares from 0 to 1 (native/cpu/pixel_error.h)."""
+    """What a picture's error is told from; shares from 0 to 1 (native/cpu/pixel_error.h)."""
 
     lit: float
     """of pixels: light somewhere in the five by five around them"""
@@ -39,10 +44,32 @@ class Evidence:
     """of lit pixels: one replicate makes four fifths of the spread"""
     lonely_error: float
     """of the mean squared error: what lonely pixels make of it"""
+    error_pixels: float
+    """how many pixels make the error: the square of its sum over the sum of its squares"""
+    chance_hits: float | None = None
+    """how many hits of the brightest light that only chance meets would make it; None: there is none
+    (chance_light.py)"""
 
     @property
     def is_enough(self) -> bool:
-        return self.lonely_error < LONELY_ERROR_LIMIT
+        return self.doubt is None
+
+    @property
+    def doubt(self) -> str | None:
+        """Why the error cannot be told; None where it can (docs/decisions/reliable.md)."""
+        if self.chance_hits is not None and self.chance_hits < HITS_LIMIT:
+            return (
+                f"the error is worth {self.chance_hits:.2g} hits of the brightest light that only chance "
+                "meets, by sharp reflections: there may be such light that no sample has met"
+            )
+        if self.error_pixels < ERROR_PIXELS_LIMIT:
+            return f"nearly all of the error lies in {max(round(self.error_pixels), 1)} of the pixels"
+        if self.lonely_error >= LONELY_ERROR_LIMIT:
+            return (
+                f"{self.lonely_error:.0%} of the error lies in {self.lonely:.1%} of the lit pixels, "
+                "whose noise one replicate alone has met: rare bright paths"
+            )
+        return None
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from .image_error import STUDENT_95
 from .scene_arrays import LUMINANCE, Float32, Float64
 
-REACH, WIDE_REACH = 2, 4
+REACH, WIDE_REACH = 2, 6
 """of the neighbourhoods, in pixels"""
 LONELY_SHARE = 0.8
 UNSEEN, LONELY = 1, 2
@@ -20,15 +20,15 @@ def measure_pixel_error(
     """Fills `half_width` (h, w), the 95 % half width of each pixel's luminance, and `flags` (h, w).
 
     `sums` is (r, h, w, 3), `counts` (r,). The variance is the largest of the pixel's own and the means over
-    the five by five and the nine by nine pixels around it. Flags: 1 no replicate has seen light, 2 one makes
-    four fifths of the spread.
+    the five by five and the thirteen by thirteen pixels around it. Flags: 1 no replicate has seen light,
+    2 one makes four fifths of the spread.
     Gives the fields of image_error.Evidence. All 0 below two replicates.
     """
     half_width[...], flags[...] = 0.0, 0
     used = counts > 0
     replicates = int(used.sum())
     if replicates < 2:
-        return {"lit": 0.0, "unseen": 0.0, "lonely": 0.0, "lonely_error": 0.0}
+        return {"lit": 0.0, "unseen": 0.0, "lonely": 0.0, "lonely_error": 0.0, "error_pixels": 0.0}
     weights = counts[used].astype(np.float64)[:, None, None]
     means = (sums[used] @ LUMINANCE) / weights
     mean = (weights * means).sum(axis=0) / weights.sum()
@@ -46,13 +46,18 @@ def measure_pixel_error(
 
 
 def evidence_of(lit: NDArray[np.bool_], flags: NDArray[np.uint8], variance: Float64) -> dict[str, float]:
-    count, error = max(int(lit.sum()), 1), float(variance[lit].sum())
+    count, error, squares = (
+        max(int(lit.sum()), 1),
+        float(variance[lit].sum()),
+        float((variance[lit] ** 2).sum()),
+    )
     lonely = lit & (flags == LONELY)
     return {
         "lit": float(lit.mean()),
         "unseen": float((lit & (flags == UNSEEN)).sum()) / count,
         "lonely": float(lonely.sum()) / count,
         "lonely_error": float(variance[lonely].sum()) / error if error > 0.0 else 0.0,
+        "error_pixels": error**2 / squares if squares > 0.0 else 0.0,
     }
 
 

@@ -187,12 +187,7 @@ def error_note(facts: RenderFacts) -> str | None:
         if evidence.lit == 0.0:
             return "no sample has met any light: an error of 0 says nothing about light that was missed"
         return "every replicate gave the same picture: it has no noise"
-    if evidence.is_enough:
-        return None
-    return (
-        f"not reliable: {evidence.lonely_error:.0%} of the error lies in {evidence.lonely:.1%} of the lit "
-        "pixels, whose noise one replicate alone has met: rare bright paths; render longer"
-    )
+    return None if evidence.doubt is None else f"not reliable: {evidence.doubt}; render longer"
 
 
 def unmet_target(facts: RenderFacts) -> list[str]:

@@ -15,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from .antialiasing import is_deterministic, with_pattern_samples
+from .chance_light import error_in_hits
 from .devices import INTEGRATORS, Unavailable, require_device
 from .errors import SceneError
 from .image_error import Evidence, PictureError, estimate_error
@@ -271,8 +272,12 @@ class RenderJob:
         )
 
     def _evidence(self) -> Evidence | None:
-        """How much of the picture few replicates have found; None below two replicates."""
+        """What the error is told from; None below two replicates."""
         shape = film_shape(self._settings)
         half_width, flags = np.zeros(shape, np.float32), np.zeros(shape, np.uint8)
         found = self._started.job.pixel_error(half_width, flags)
-        return None if self._error.rmse is None else Evidence(**found)
+        if self._error.rmse is None:
+            return None
+        samples = self._started.job.poll(0.0)["samples"]
+        hits = error_in_hits(self._scene, self._settings, self._error.rmse, samples)
+        return Evidence(**found, chance_hits=hits)
