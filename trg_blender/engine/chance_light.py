@@ -1,8 +1,8 @@
 """Light that only chance meets: what a picture may have missed without a trace in its replicates.
 
-A path that leaves a surface by a sharp reflection or refraction cannot be aimed at a lamp. Whether it meets one
-is chance, and one hit may be worth as much as the lamp's whole radiance. A picture that has met none shows no
-noise of them (docs/decisions/reliable.md).
+A path that leaves a surface by a sharp reflection or refraction cannot be aimed at a lamp. Whether it meets
+one is chance, and one hit may be worth as much as the lamp's whole radiance. A picture that has met none
+shows no noise of them (docs/decisions/reliable.md).
 """
 
 from __future__ import annotations
