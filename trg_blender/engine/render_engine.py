@@ -12,6 +12,7 @@ import math
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 import bpy
 
@@ -24,6 +25,7 @@ from .kept_scene import KeptScene
 from .mfaa import blend_frames
 from .native import ACCELERATORS
 from .pace import Pace
+from .picture_stamp import stamp_fields
 from .report import Progress, format_progress, with_source
 from .result import Failure, border_of, records, register_passes, stamp_mattes, wanted_passes, write_pixels
 from .run_text import ENGINE_ID
@@ -189,9 +191,9 @@ class TRGRenderEngine(bpy.types.RenderEngine):
         outcome = job.result()
         pixels, reused = blend_with_last(job, outcome, frame.scene_name)
         write_pixels(result, pixels, outcome.passes)
-        self._stamp(frame, result.layers[0].name)
         outcome.report["numerics"]["reprojected_pixels"] = reused
         report = with_source(outcome.report, frame.file, frame.number, frame.seconds)
+        self._stamp(frame, result.layers[0].name, report)
         records.keep_report(frame.scene_name, report)
         if interrupted:
             raise RenderCancelled
@@ -206,10 +208,12 @@ class TRGRenderEngine(bpy.types.RenderEngine):
             self.kept = {}
         return self.kept.setdefault(frame.layer, KeptScene())
 
-    def _stamp(self, frame: Frame, layer: str) -> None:
+    def _stamp(self, frame: Frame, layer: str, report: Mapping[str, Any]) -> None:
         """Into the whole render's result: Blender forgets the fields of the part that a layer fills."""
         whole = self.get_result()
         if whole is not None:
+            for name, value in stamp_fields(report).items():
+                whole.stamp_data_add_field(name, value)
             stamp_mattes(whole, layer, frame.arrays, frame.settings.passes)
 
     def _follow(self, job: session.RenderJob, result: bpy.types.RenderResult) -> None:
