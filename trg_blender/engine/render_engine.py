@@ -30,6 +30,7 @@ from .report import Progress, format_progress, with_source
 from .result import Failure, border_of, records, register_passes, stamp_mattes, wanted_passes, write_pixels
 from .run_text import ENGINE_ID
 from .scene_arrays import Float32, RenderSettings, SceneArrays
+from .shots import shots
 from .to_blender import requested_modes
 
 POLL_SECONDS = 0.03
@@ -195,6 +196,8 @@ class TRGRenderEngine(bpy.types.RenderEngine):
         report = with_source(outcome.report, frame.file, frame.number, frame.seconds)
         self._stamp(frame, result.layers[0].name, report)
         records.keep_report(frame.scene_name, report)
+        if not self.is_preview:
+            shots.keep(frame.scene_name, (frame.arrays, frame.settings), outcome)
         if interrupted:
             raise RenderCancelled
         return self.test_break()

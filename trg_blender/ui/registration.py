@@ -8,6 +8,7 @@ import bpy
 
 from ..engine import render_engine, run_text
 from . import command, live_parameters, object_panel, operators, panels, preferences, properties
+from .image_editor import parts as image_editor
 from .text_editor import parts as text_editor
 
 PARTS = (
@@ -20,6 +21,7 @@ PARTS = (
     panels,
     object_panel,
     text_editor,
+    image_editor,
     command,
 )
 
