@@ -1,6 +1,7 @@
 #include "cpu/film.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace trg {
 
@@ -69,7 +70,7 @@ void Film::add(const Chunk& chunk, const PathQueues& queues, const PassView& vie
     for (int32_t i = 0; i < count; ++i) {
         const PathResult& result = queues.results[i];
         if (!is_finite(result.radiance)) {
-            rejected_.fetch_add(1, std::memory_order_relaxed);
+            reject(chunk.pixels[i / chunk.samples], chunk.first_sample + i % chunk.samples);
             continue;
         }
         const int64_t at = index_of(chunk.pixels[i / chunk.samples]);
@@ -86,6 +87,27 @@ void Film::add(const Chunk& chunk, const PathQueues& queues, const PassView& vie
         normals_[3 * at + 1] += result.normal.y;
         normals_[3 * at + 2] += result.normal.z;
     }
+}
+
+void Film::reject(Pixel pixel, int64_t sample) {
+    rejected_.fetch_add(1, std::memory_order_relaxed);
+    const auto order = [](const RejectedSample& one) {
+        return std::make_tuple(one.sample, one.y, one.x);
+    };
+    const auto before = [&](const RejectedSample& a, const RejectedSample& b) {
+        return order(a) < order(b);
+    };
+    const RejectedSample found{pixel.x, pixel.y, sample};
+    // Which are kept may not depend on the threads: in order, the last one falls out.
+    const std::lock_guard<std::mutex> hold(rejected_lock_);
+    auto& kept = rejected_places_;
+    kept.insert(std::upper_bound(kept.begin(), kept.end(), found, before), found);
+    if (kept.size() > kRejectedPlaces) kept.pop_back();
+}
+
+std::vector<RejectedSample> Film::rejected_places() const {
+    const std::lock_guard<std::mutex> hold(rejected_lock_);
+    return rejected_places_;
 }
 
 void Film::set_depth(const Pixel* pixels, int32_t count, const float* depth) {

@@ -18,6 +18,15 @@ struct PixelRect {
     int32_t x_min, y_min, x_max, y_max;
 };
 
+/// A sample that was no number: which of which pixel of the whole picture.
+struct RejectedSample {
+    int32_t x, y;
+    int64_t sample;
+};
+
+/// So many rejected samples are remembered: the first by number, row and column.
+constexpr size_t kRejectedPlaces = 16;
+
 struct FilmPasses {
     bool depth = false;
     bool normal = false;
@@ -85,6 +94,8 @@ class Film {
     int replicates() const { return replicates_; }
     bool halved() const { return layout_.halved; }
     int64_t rejected() const { return rejected_.load(std::memory_order_relaxed); }
+    /// The first of them, at most kRejectedPlaces, by sample, row and column.
+    std::vector<RejectedSample> rejected_places() const;
     const FilmPasses& passes() const { return layout_.passes; }
     /// Samples that every tile has.
     uint32_t least_samples() const;
@@ -128,6 +139,7 @@ class Film {
 
   private:
     void make_tiles();
+    void reject(Pixel pixel, int64_t sample);
 
     FilmLayout layout_;
     int replicates_;
@@ -138,6 +150,8 @@ class Film {
     std::vector<float> depth_;
     PassFilm pass_film_;
     std::atomic<int64_t> rejected_{0};
+    std::vector<RejectedSample> rejected_places_;
+    mutable std::mutex rejected_lock_;  // guards rejected_places_
 };
 
 }  // namespace trg

@@ -85,6 +85,19 @@ PyObject* cancel_method(PyObject* self, PyObject*) {
     });
 }
 
+PyObject* rejected_places_method(PyObject* self, PyObject*) {
+    return guarded_object([&] {
+        const std::vector<RejectedSample> places = job_of(self).film().rejected_places();
+        PyRef list = checked(PyList_New(0));
+        for (const RejectedSample& one : places) {
+            const PyRef row =
+                checked(Py_BuildValue("(iiL)", one.x, one.y, static_cast<long long>(one.sample)));
+            if (PyList_Append(list.get(), row.get()) != 0) throw PythonError();
+        }
+        return list;
+    });
+}
+
 PyObject* combined_method(PyObject* self, PyObject* out) {
     return guarded_object([&] {
         const Film& film = job_of(self).film();
@@ -212,6 +225,9 @@ PyMethodDef kJobMethods[] = {
     {"poll", as_method(poll_method), METH_VARARGS | METH_KEYWORDS,
      "poll(timeout_s=0) -> dict: waits at most so long for the end, then says where it stands"},
     {"cancel", cancel_method, METH_NOARGS, "cancel(): returns at once"},
+    {"rejected_places", rejected_places_method, METH_NOARGS,
+     "rejected_places() -> list: (x, y, sample) of the first samples that were not finite, at most "
+     "16"},
     {"combined", combined_method, METH_O, "combined(out): fills float32 (h, w, 4)"},
     {"depth", depth_method, METH_O, "depth(out): fills float32 (h, w)"},
     {"normal", normal_method, METH_O, "normal(out): fills float32 (h, w, 3)"},

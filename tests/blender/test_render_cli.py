@@ -211,3 +211,30 @@ def test_a_faulty_program_has_status_1_and_its_place(program, tmp_path):
     done = trg("render", program, "-o", tmp_path / "x.png")
     assert done.returncode == 1 and "torus.trg:2:" in done.stderr
     assert "Traceback" not in done.stderr and not (tmp_path / "x.png").exists()
+
+
+HOT_LAMP = """
+bpy.data.objects["Light"].location = (0.5, 0.5, 1.00001)
+lamp = bpy.data.objects["Light"].data
+lamp.energy, lamp.shadow_soft_size = 1e38, 0
+"""
+
+
+def test_a_sample_that_is_no_number_is_named_and_can_be_repeated(tmp_path):
+    make_blend(tmp_path / "hot.blend", HOT_LAMP)
+    done = trg("render", "hot.blend", "-o", "whole.png", "--report", "whole.json", cwd=tmp_path)
+    whole = json.loads((tmp_path / "whole.json").read_text())["numerics"]
+    first = whole["rejected_places"][0]
+    assert whole["rejected_samples"] > 0
+    assert f"pixel {first['x']},{first['y']}, sample {first['sample']}" in done.stdout
+    (repeat,) = [line for line in done.stdout.splitlines() if line.startswith("repeat: trg ")]
+    words = repeat.removeprefix("repeat: trg ").split()
+    again = trg(*words, "--report", "pixel.json", cwd=tmp_path)
+    assert again.returncode == 0
+    assert json.loads((tmp_path / "pixel.json").read_text())["numerics"]["rejected_places"] == [first]
+
+
+def test_a_pixel_outside_the_picture_is_a_usage_error(cube, tmp_path):
+    done = trg("render", cube, "-o", tmp_path / "a.png", "--pixel", "64,0")
+    assert done.returncode == 2
+    assert "the picture has 64 x 36" in done.stderr

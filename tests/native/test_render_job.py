@@ -288,6 +288,26 @@ def test_samples_that_are_not_finite_are_counted_and_dropped() -> None:
     assert np.isfinite(pixels).all()
 
 
+@pytest.mark.parametrize("border", [None, (2, 1, 7, 6)])
+def test_the_first_rejected_samples_are_the_same_for_any_number_of_threads(border: Any) -> None:
+    light = Light(POINT, 3e38, 3e38, 3e38, position_x=0.003, position_z=1e-3)
+    scene = new_scene([WHITE], lights=[light])
+    add_object(scene, make_floor())
+    Camera(half_width=0.01).apply(scene)
+    scene.build(1)
+    found = []
+    for threads in (1, 3):
+        job = start(scene, Settings(8, 8, samples=8, threads=threads, border=border))
+        assert finish(job)["rejected_samples"] > 16
+        found.append(job.rejected_places())
+    assert found[0] == found[1] == sorted(found[0], key=lambda place: place[::-1])
+    assert len(found[0]) == 16
+    for x, y, sample in found[0][:3]:
+        alone = start(scene, Settings(8, 8, samples=sample + 1, border=(x, y, x + 1, y + 1)))
+        finish(alone)
+        assert (x, y, sample) in alone.rejected_places()
+
+
 @pytest.mark.parametrize(
     ("column", "value"),
     [

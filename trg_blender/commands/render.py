@@ -26,7 +26,14 @@ from ..engine.report import ENDLESS_SAMPLES, with_source
 from ..engine.scene_arrays import PIXEL_FILTERS
 from ..lang import ProgramError
 from .parameters import SetError, add_set, parameters_of
-from .render_output import ProgressPrinter, blender_chatter_off, describe_report, frame_path, write_report
+from .render_output import (
+    ProgressPrinter,
+    blender_chatter_off,
+    describe_report,
+    frame_path,
+    repeat_rejected,
+    write_report,
+)
 
 SOURCES, PICTURES = (".trg", ".blend"), (".png", ".exr")
 EXIT_CODES = {
@@ -61,6 +68,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     which.add_argument("--frame", type=int, metavar="N", help="frame to render")
     which.add_argument("--frames", type=_frame_range, metavar="A-B", help="frames to render; numbered files")
     add("--size", type=size_of, metavar="WxH", help="picture size; else the program's or the file's")
+    add("--pixel", type=pixel_of, metavar="X,Y", help="this pixel alone; 0,0 is the bottom left one")
     add("--device", choices=("auto", *DEVICE_NAMES), help="what traces the rays")
     add("--accel", choices=ACCELERATORS, help="structure that finds the nearest surface")
     add("--integrator", choices=INTEGRATORS, help="how light is gathered")
@@ -187,6 +195,8 @@ class RenderCommand:
         scene.frame_set(frame)
         scene.render.filepath = str(picture)
         script_seconds = self._run_program(scene)
+        if self.args.pixel is not None:
+            choose_pixel(scene.render, self.args.pixel)
         progress = ProgressPrinter(sys.stderr, f"frame {frame}", self.args.quiet)
         records.watcher = progress
         begin = time.perf_counter()
@@ -257,7 +267,7 @@ class RenderCommand:
         if self.args.quiet:
             return
         if "error" in report:
-            self.out.write(describe_report(picture, report) + "\n")
+            self.out.write(describe_report(picture, report) + repeat_rejected(self.args, report) + "\n")
         else:
             self.out.write(f"{picture}: {scene.render.engine}, {seconds['total']:.2f} s\n")
         self.out.flush()
@@ -293,6 +303,21 @@ def apply_options(bpy: ModuleType, scene: Any, args: argparse.Namespace) -> None
         scene.render.resolution_x, scene.render.resolution_y = args.size
         scene.render.resolution_percentage = 100
     choose_format(scene, args)
+
+
+def choose_pixel(render: Any, pixel: tuple[int, int]) -> None:
+    """A border of one pixel, to which the picture is cropped. Raises RenderFailed outside the picture."""
+    share = render.resolution_percentage / 100.0
+    size = [max(int(side * share), 1) for side in (render.resolution_x, render.resolution_y)]
+    if any(at >= side for at, side in zip(pixel, size, strict=True)):
+        raise RenderFailed(
+            f"trg: error: --pixel {pixel[0]},{pixel[1]}: the picture has {size[0]} x {size[1]}", cli.USAGE
+        )
+    render.use_border = render.use_crop_to_border = True
+    for axis, at, side in zip("xy", pixel, size, strict=True):
+        # Blender rounds down: half a pixel more is safe.
+        setattr(render, f"border_min_{axis}", (at + 0.5) / side)
+        setattr(render, f"border_max_{axis}", min((at + 1.5) / side, 1.0))
 
 
 def set_stops(own: Any, args: argparse.Namespace) -> None:
@@ -356,6 +381,13 @@ def size_of(text: str) -> tuple[int, int]:
     match = re.fullmatch(r"(\d+)[xX](\d+)", text)
     if match is None or not int(match[1]) or not int(match[2]):
         raise argparse.ArgumentTypeError(f"{text!r} is not a size such as 640x480")
+    return int(match[1]), int(match[2])
+
+
+def pixel_of(text: str) -> tuple[int, int]:
+    match = re.fullmatch(r"(\d+),(\d+)", text)
+    if match is None:
+        raise argparse.ArgumentTypeError(f"{text!r} is not a pixel such as 12,40")
     return int(match[1]), int(match[2])
 
 

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import argparse
 import json
 import re
+import shlex
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -87,6 +89,22 @@ def describe_report(picture: Path, report: dict[str, Any]) -> str:
         lines.append(error["note"])
     lines += [f"warning: {warning}" for warning in report["warnings"]]
     return "\n".join(lines)
+
+
+def repeat_rejected(args: argparse.Namespace, report: dict[str, Any]) -> str:
+    """A line with the command that renders the first sample again that was not finite; empty without one."""
+    places = report["numerics"]["rejected_places"]
+    if not places:
+        return ""
+    first = places[0]
+    words = ["trg", "render", str(args.file), "--frame", report["frame"], "-o", "out/pixel.exr"]
+    words += ["--size", "{}x{}".format(*report["size"]), "--pixel", f"{first['x']},{first['y']}"]
+    words += ["--samples", first["sample"] + 1, "--seed", report["seed"], "--device", report["device"]]
+    words += ["--integrator", report["integrator"]]
+    if report["device"] == "cpu":
+        words += ["--accel", report["accel"]]
+    words += [word for setting in args.settings for word in ("--set", setting)]
+    return "\nrepeat: " + shlex.join(str(word) for word in words)
 
 
 def write_report(path: Path, reports: list[dict[str, Any]]) -> None:

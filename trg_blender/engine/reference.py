@@ -23,6 +23,7 @@ from .reference_scene import MISS
 from .scene_arrays import Float64, RenderSettings, SceneArrays
 
 REPLICATES = 8
+REJECTED_PLACES = 16
 BATCH = 16384
 """Paths that walk together: small enough to notice a cancel a few times a second."""
 FAR_DEPTH = 1e10
@@ -51,6 +52,8 @@ class ReferenceFilm:
     """(h, w, 3) where the rays through the pixels' centres end, 0 for a miss"""
     rays: RayCounts = field(default_factory=RayCounts)
     rejected_samples: int = 0
+    rejected_places: list[tuple[int, int, int]] = field(default_factory=list)
+    """(x, y, sample) of the first of them, in pixels of the film"""
 
     @property
     def samples(self) -> int:
@@ -270,12 +273,22 @@ def expose_moving(
     return join_estimates(parts, lambda each: np.stack(each, axis=1).reshape(-1, *each[0].shape[1:]))
 
 
+def note_rejected(film: ReferenceFilm, step: Step, rows: NDArray[np.int64]) -> None:
+    """Keeps the first REJECTED_PLACES by sample, row and column."""
+    pixels, numbers = rows // step.samples, step.sample_numbers()[rows % step.samples]
+    width = film.depth.shape[1]
+    found = zip(pixels % width, pixels // width, numbers, strict=True)
+    places = film.rejected_places + [(int(x), int(y), int(sample)) for x, y, sample in found]
+    film.rejected_places = sorted(places, key=lambda place: place[::-1])[:REJECTED_PLACES]
+
+
 def add_estimate(film: ReferenceFilm, step: Step, batch: Estimate) -> None:
     """Sums the samples of each pixel; a sample that is not finite is dropped and counted."""
     height, width = film.depth.shape
     finite = np.isfinite(batch.radiance).all(axis=1)
     radiance = np.where(finite[:, None], batch.radiance, 0.0)
     film.rejected_samples += int((~finite).sum())
+    note_rejected(film, step, np.flatnonzero(~finite))
     film.sums[step.replicate] += radiance.reshape(height, width, step.samples, 3).sum(axis=2)
     film.coverage += batch.hit.reshape(height, width, step.samples).sum(axis=2)
     film.normals += batch.normal.reshape(height, width, step.samples, 3).sum(axis=2)

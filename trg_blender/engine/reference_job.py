@@ -76,6 +76,12 @@ class ReferenceJob:
                 "kernel_set": "numpy",
             }
 
+    def rejected_places(self) -> list[tuple[int, int, int]]:
+        """(x, y, sample) of the first samples that were not finite, in pixels of the whole picture."""
+        left, bottom = (self._settings.border or (0, 0))[:2]
+        with self._lock:
+            return [(x + left, y + bottom, sample) for x, y, sample in self._film.rejected_places]
+
     def cancel(self) -> None:
         """Asks the thread to stop; it does within a fraction of a second."""
         self._cancel.set()

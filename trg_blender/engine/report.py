@@ -64,6 +64,8 @@ class RenderFacts:
     instruction_set: str | None = None
     threads: int = 1
     evidence: Evidence | None = None
+    rejected_places: list[tuple[int, int, int]] = field(default_factory=list)
+    """(x, y, sample) of the first samples that were no numbers"""
 
 
 def build_report(facts: RenderFacts) -> dict[str, Any]:
@@ -97,12 +99,15 @@ def build_report(facts: RenderFacts) -> dict[str, Any]:
         "features": feature_section(scene, settings),
         "numerics": {
             "rejected_samples": job["rejected_samples"],
+            "rejected_places": [
+                {"x": x, "y": y, "sample": sample} for x, y, sample in facts.rejected_places
+            ],
             "cut_rays": job.get("cut_rays", 0),
             "reprojected_pixels": 0,
             "degenerate_triangles": facts.build.get("degenerate_triangles"),
             "clamped": 0,
         },
-        "warnings": [*scene.warnings, *facts.warnings, *unmet_target(facts)],
+        "warnings": [*scene.warnings, *facts.warnings, *unmet_target(facts), *rejections(facts)],
     }
 
 
@@ -196,6 +201,15 @@ def unmet_target(facts: RenderFacts) -> list[str]:
     if target <= 0.0 or facts.job["stopped_by"] == "error" or rmse is None or rmse <= target:
         return []
     return [f"error target {target:g} was not met: rmse {rmse:.3g} when {facts.job['stopped_by']} ended it"]
+
+
+def rejections(facts: RenderFacts) -> list[str]:
+    """A warning when samples were dropped, with the first of them."""
+    count = facts.job["rejected_samples"]
+    if not count:
+        return []
+    where = [f"; the first: pixel {x},{y}, sample {sample}" for x, y, sample in facts.rejected_places[:1]]
+    return [f"{count} samples were no finite numbers and were left out{''.join(where)}"]
 
 
 def seconds_left(state: Mapping[str, Any], settings: RenderSettings, error: PictureError) -> float | None:
