@@ -55,3 +55,11 @@ def test_a_folder_of_the_user_may_be_read_and_others_not(scene, monkeypatch, tmp
     use(monkeypatch, folders=[SimpleNamespace(path=str(allowed))])
     assert text_files.allowed_folders(text) == [allowed]
     assert text_files.TextFiles(text).resolve_include("part.trg", "program.trg").text == "x = 1;"
+
+
+def test_the_language_of_messages_is_the_users_choice(scene, monkeypatch):
+    assert host_options(scene).language == "en"
+    use(monkeypatch, language="RU")
+    assert host_options(scene).language == "ru"
+    use(monkeypatch, language="AUTO")
+    assert host_options(scene).language == "en"

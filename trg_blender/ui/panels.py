@@ -36,6 +36,7 @@ class TRG_RENDER_PT_program(_RenderPanel, bpy.types.Panel):
     def draw(self, context: bpy.types.Context) -> None:
         self.layout.template_ID(context.scene.trg, "program", new="text.new", open="text.open")
         self.layout.operator("trg.build")
+        self.layout.prop(context.scene.trg, "run_on_load")
         row = self.layout.row(align=True)
         row.operator("trg.detach_all")
         if bpy.ops.trg.attach_all.poll():

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import bpy
 
+from ..engine.devices import list_devices
 from ..engine.to_blender.user_settings import EXTENSION
 from ..lang.limits import Limits
 
@@ -58,6 +59,15 @@ class TRGPreferences(bpy.types.AddonPreferences):
 
     bl_idname = EXTENSION
 
+    language: bpy.props.EnumProperty(  # type: ignore[valid-type]
+        name="Messages",
+        description="Language of what programs are told",
+        items=(
+            ("AUTO", "As Blender's Interface", "Russian where Blender is, else English"),
+            ("EN", "English", ""),
+            ("RU", "Русский", ""),
+        ),
+    )
     folders: bpy.props.CollectionProperty(type=TRG_PG_folder)  # type: ignore[valid-type]
     max_steps: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Steps a Frame",
@@ -104,6 +114,14 @@ class TRGPreferences(bpy.types.AddonPreferences):
 
     def draw(self, _context: bpy.types.Context) -> None:
         layout = self.layout
+        column = layout.column(align=True)
+        column.label(text="Devices:")
+        for device in list_devices():
+            row = column.row()
+            row.active = device.available
+            row.label(text=device.name, icon="CHECKMARK" if device.available else "X")
+            row.label(text=device.description if device.reason is None else device.reason)
+        layout.prop(self, "language")
         layout.label(text="Programs may read the folders of their text and of the .blend, and these:")
         for index, folder in enumerate(self.folders):
             row = layout.row(align=True)

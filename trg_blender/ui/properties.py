@@ -61,6 +61,11 @@ class TRGSceneSettings(bpy.types.PropertyGroup):
         update=_offer_parameters,
     )
     parameters: bpy.props.PointerProperty(type=TRGParameters)  # type: ignore[valid-type]
+    run_on_load: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Run on Load",
+        description="Build the scene when the file is opened, where Auto Run Python Scripts allows it",
+        default=False,
+    )
     samples: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Samples", description="Light paths traced for each pixel", default=64, min=1, soft_max=4096
     )

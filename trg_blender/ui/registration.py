@@ -7,7 +7,7 @@ import atexit
 import bpy
 
 from ..engine import render_engine, run_text
-from . import command, live_parameters, object_panel, operators, panels, preferences, properties
+from . import command, live_parameters, object_panel, operators, panels, preferences, properties, run_on_load
 from .image_editor import parts as image_editor
 from .text_editor import parts as text_editor
 
@@ -17,6 +17,7 @@ PARTS = (
     render_engine,
     run_text,
     live_parameters,
+    run_on_load,
     operators,
     panels,
     object_panel,

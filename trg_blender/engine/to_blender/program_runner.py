@@ -16,7 +16,7 @@ from .mirror import MirrorCounts, SceneMirror, new_planner
 from .parameters import offer_parameters, parameter_values
 from .plan import Planner
 from .text_files import TextFiles
-from .user_settings import program_limits
+from .user_settings import program_limits, wanted_language
 
 RUN_AHEAD_SECONDS = 120.0
 """How long a jump to a later frame may take before the program counts as out of budget."""
@@ -199,8 +199,8 @@ class _Failed(Exception):
 
 
 def message_language() -> str:
-    """Language of diagnostics: that of Blender's interface where TRG speaks it."""
-    return "ru" if bpy.app.translations.locale.startswith("ru") else "en"
+    """Language of diagnostics: the user's choice, else that of Blender's interface where TRG speaks it."""
+    return wanted_language() or ("ru" if bpy.app.translations.locale.startswith("ru") else "en")
 
 
 def host_options(scene: bpy.types.Scene) -> lang.HostOptions:

@@ -27,6 +27,12 @@ def program_limits() -> Limits:
     return replace(Limits(), **{name: getattr(preferences, name) for name in names})
 
 
+def wanted_language() -> str:
+    """Language of messages that the user chose, `en` or `ru`; empty: that of Blender's interface."""
+    chosen = getattr(_preferences(), "language", "AUTO")
+    return "" if chosen == "AUTO" else str(chosen).lower()
+
+
 def user_folders() -> list[Path]:
     """Folders that the user lets programs read, as they stand in the preferences."""
     preferences = _preferences()
