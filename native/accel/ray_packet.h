@@ -27,7 +27,8 @@ struct alignas(64) RayPacket {
     float spread;                         // largest component of an origin - centre
     float line_length;                    // largest |x| + |y| + |z| of `line`
     RayBounds bounds;
-    uint32_t ready;  // bits of the rays in `alone`
+    const float* times;  // of each ray; null: all in the middle of the shutter
+    uint32_t ready;      // bits of the rays in `alone`
     TracedRay alone[kPacketRays];
 };
 
@@ -39,6 +40,7 @@ TRG_INLINE_FN const TracedRay& lane_ray(RayPacket& packet, int k) {
             prepare_ray({packet.origin[0][k], packet.origin[1][k], packet.origin[2][k]},
                         {packet.direction[0][k], packet.direction[1][k], packet.direction[2][k]},
                         packet.t_min[k]);
+        if (packet.times) packet.alone[k].time = packet.times[k];
     }
     return packet.alone[k];
 }
@@ -177,9 +179,20 @@ TRG_FN void fill_box_test(RayPacket& packet) {
         }
 }
 
+/// False, at little cost, where a few of the rays show that all do not go the same way.
+TRG_INLINE_FN bool may_go_together(const Ray* rays) {
+    const Vec3 a = rays[0].direction;
+    bool may = true;
+    for (const int k : {kPacketRays / 3, 2 * kPacketRays / 3, kPacketRays - 1}) {
+        const Vec3 b = rays[k].direction;
+        may = may & (a.x * b.x > 0) & (a.y * b.y > 0) & (a.z * b.z > 0);
+    }
+    return may;
+}
+
 /// Makes a packet of rays[0..kPacketRays), each of which is traceable; false when it cannot be one:
-/// or when they are too far apart for a world as large as `reach`.
-TRG_FN bool make_packet(const Ray* rays, float reach, RayPacket& packet) {
+/// or when they are too far apart for a world as large as `reach`. `times`, kept, may be null.
+TRG_FN bool make_packet(const Ray* rays, const float* times, float reach, RayPacket& packet) {
     const RayExtent extent = extent_of(rays);
     if (!has_one_octant(extent) || !is_narrow(extent, reach)) return false;
     bool open = true;
@@ -196,6 +209,7 @@ TRG_FN bool make_packet(const Ray* rays, float reach, RayPacket& packet) {
         open = open & (ray.t_max > packet.t_min[k]);
     }
     if (!open) return false;
+    packet.times = times;
     packet.ready = 0;
     packet.bounds = bounds_of(extent);
     if (!QuickBoxTest::fits(packet.bounds)) return false;

@@ -117,8 +117,8 @@ struct GroupMasks {
 
 /// Which of the eight rays of group `group` pass triangle `lane` inside.
 template <bool kOneOrigin>
-TRG_FN GroupMasks filter_rays(const BlockEdges& edges, int lane, const RayPacket& packet,
-                              int group) {
+TRG_INLINE_FN GroupMasks filter_rays(const BlockEdges& edges, int lane, const RayPacket& packet,
+                                     int group) {
     const int first = group * kWidth;
     Float8 value[3];
     for (int k = 0; k < 3; ++k) {

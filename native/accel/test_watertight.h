@@ -73,7 +73,7 @@ TRG_FN RelativeCorners relative_corners(const CornerBlock& block, int lane, cons
     return {a - ray.origin_d, b - ray.origin_d, c - ray.origin_d, c - b, a - c, b - a};
 }
 
-TRG_FN EdgeFunctions edge_functions(const RelativeCorners& p, Vec3d direction) {
+TRG_INLINE_FN EdgeFunctions edge_functions(const RelativeCorners& p, Vec3d direction) {
     // B x C = B x (C - B): edges do not cancel, however far the triangle is.
     return {dot(direction, cross(p.b, p.bc)), dot(direction, cross(p.c, p.ca)),
             dot(direction, cross(p.a, p.ab))};
@@ -158,15 +158,18 @@ struct Barycentrics {
     float u, v;
 };
 
-TRG_FN float unit_range(double x) {
+TRG_INLINE_FN float unit_range(double x) {
     return static_cast<float>(x < 0 ? 0 : x > 1 ? 1 : x);
 }
 
-TRG_FN Barycentrics coordinates_of(const CornerBlock& block, int lane, const ExactRay& ray) {
-    const EdgeFunctions e = edge_functions(relative_corners(block, lane, ray), ray.direction_d);
+TRG_INLINE_FN Barycentrics coordinates_of(const EdgeFunctions& e) {
     const double sum = e.u + e.v + e.w;
     if (sum == 0) return {0.0f, 0.0f};
     return {unit_range(e.v / sum), unit_range(e.w / sum)};
+}
+
+TRG_FN Barycentrics coordinates_of(const CornerBlock& block, int lane, const ExactRay& ray) {
+    return coordinates_of(edge_functions(relative_corners(block, lane, ray), ray.direction_d));
 }
 
 }  // namespace trg::TRG_ISA

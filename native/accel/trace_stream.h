@@ -40,7 +40,7 @@ struct StreamRay {
 enum class Turn { go_on, pop, met };
 
 TRG_FN bool takes_streams(const WorldIndex& index) {
-    return index.bytes > kCachedBytes && !index.placements.empty();
+    return index.bytes > kCachedBytes && !index.placements.empty() && !index.moving;
 }
 
 template <class Block>

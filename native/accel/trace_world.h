@@ -48,9 +48,19 @@ TRG_FN bool soup_hides(const Soup& soup, const TracedRay& ray, float t_max) {
     return walk_soup<false, Block>(soup, ray, &limit, visit);
 }
 
+/// `v` rounded to float, for good: GCC 12 takes the way to float and back out of vectorised code,
+/// and then the doubles of a ray are those of another ray than its floats.
+TRG_FN Vec3 rounded(Vec3d v) {
+    Vec3 result = to_float(v);
+#if defined(__GNUC__)
+    asm("" : "+m"(result));
+#endif
+    return result;
+}
+
 TRG_FN TracedRay enter_space(const InverseMap& into, const TracedRay& ray) {
-    return prepare_ray(to_float(point_into(into, ray.origin_d)),
-                       to_float(vector_into(into, ray.direction_d)), ray.t_min);
+    return prepare_ray(rounded(point_into(into, ray.origin_d)),
+                       rounded(vector_into(into, ray.direction_d)), ray.t_min);
 }
 
 /// The ray in the space of a placed soup; distances stay what they are.
@@ -71,7 +81,8 @@ TRG_FN bool is_representable(const TracedRay& local) {
 }
 
 template <class Block>
-TRG_FN void search_placement(const Placement& placement, const TracedRay& ray, Search& search) {
+TRG_FN void search_placement(const Placement& placement, const TracedRay& ray,
+                                    Search& search) {
     search.current = &placement;
     if (placement.soup->shape != Shape::triangles)
         test_closest(placement, ray, search);
@@ -145,7 +156,7 @@ TRG_FN Barycentrics hit_coordinates(const Search& search, const Placement& place
 }
 
 template <class Block>
-TRG_FN Hit resolve_hit(const Search& search, const TracedRay& ray, float scale) {
+TRG_INLINE_FN Hit resolve_hit(const Search& search, const TracedRay& ray, float scale) {
     if (search.prim < 0) return no_hit();
     const Placement& placement = *search.placement;
     const Barycentrics at = hit_coordinates<Block>(search, placement, ray);

@@ -83,8 +83,8 @@ int take_mesh(World& to, World& from, int mesh);
 int add_instance(World& world, int mesh, const Transform& object_to_world);
 
 /// Makes instance `number` move through two or more places while the shutter is open
-/// (geom/motion.h). Rays meet it where it is at their time; packets and streams are off in a world
-/// that moves.
+/// (geom/motion.h). Rays meet it where it is at their time, and one by one; streams are off in a
+/// world that moves.
 void set_motion(World& world, int number, const std::vector<Transform>& keys);
 
 /// Builds the index over everything added so far. Triangles with coordinates that are not finite or

@@ -189,6 +189,15 @@ PrimRefs gather_boxes(const World& world, WorldIndex& index) {
     return refs;
 }
 
+/// The longest edge of the box of them all.
+float largest_extent(const PrimRefs& refs) {
+    Bounds all = empty_bounds();
+    for (const PrimRef& ref : refs) all = united(all, box_of(ref));
+    if (is_empty(all)) return 0;
+    const Vec3 size = all.hi - all.lo;
+    return std::fmax(size.x, std::fmax(size.y, size.z));
+}
+
 void count_up(const WorldIndex& index, BuildStats* stats) {
     for (const auto& soup : index.soups) {
         stats->nodes += soup_nodes(*soup);
@@ -215,6 +224,7 @@ void place_soups(const World& world, WorldIndex& index, int threads) {
     index.top = {};
     index.moving = !world.motion_keys.empty();
     PrimRefs refs = gather_boxes(world, index);
+    index.reach = largest_extent(refs);
     if (refs.size() > 1) index.top = build_tree(refs, {1, threads});
     index.placements.reserve(refs.size());
     if (refs.size() == 1) index.placements.push_back(placement_of(world, index, refs[0].item));

@@ -25,6 +25,7 @@ struct WorldIndex {
     std::vector<Placement> placements;  // in the order of the leaves of `top`
     Tree top;                           // over placements; unused when there is only one
     std::vector<Placement> unbounded;   // planes: no box holds them
+    float reach = 0;                    // largest extent of the box of all placements
     bool moving = false;                // whether time changes anything
     int64_t bytes = 0;                  // of all that rays may touch
     Kernels kernels{};

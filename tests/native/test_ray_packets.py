@@ -5,9 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from trg_blender.engine.native import Hits
+from trg_blender.engine.native import Hits, RayScene
 
 from .meshes import Float32, Mesh, icosphere, mesh_of, scene_of, soup
+from .test_ray_instances import placed, rotation
 
 
 def beams(
@@ -22,8 +23,14 @@ def beams(
 
 
 def assert_as_alone(mesh: Mesh, origins: Float32, directions: Float32, t_max: float = np.inf) -> Hits:
-    """Batches of 16 rays and batches of 1 ray give the same bits."""
-    scene = scene_of(mesh, "bvh")
+    """Rays of one mesh give the same bits in bundles and out of them."""
+    return assert_bundles_as_alone(scene_of(mesh, "bvh"), origins, directions, t_max)
+
+
+def assert_bundles_as_alone(
+    scene: RayScene, origins: Float32, directions: Float32, t_max: float = np.inf
+) -> Hits:
+    """Rays in an order that makes bundles of 16, and in one that makes none, give the same bits."""
     together = scene.intersect(origins, directions, tmax=t_max, threads=1)
     hidden = scene.occluded(origins, directions, tmax=t_max, threads=1)
     # A stride that is prime to the batch leaves no two neighbours next to each other.
@@ -87,3 +94,71 @@ def test_a_beam_with_rays_that_cannot_be_traced_leaves_the_others_alone():
     for first in (0, 5, 9):
         assert (hits.triangle[first::16] < 0).all()
     assert (hits.triangle >= 0).any()
+
+
+def general_world(rotated: bool) -> RayScene:
+    """Meshes merged and placed (turned, mirrored, stretched, twice in one place), spheres, planes."""
+    rng = np.random.default_rng(10)
+    scene = RayScene("bvh")
+    for seed in (11, 12):
+        mesh = soup(400, 0.2, seed=seed)
+        scene.add_instance(scene.add_mesh(mesh.vertices, mesh.triangles))
+    ball, sphere, plane = icosphere(3), scene.add_sphere(), scene.add_plane()
+    copies = scene.add_mesh(ball.vertices, ball.triangles)
+    for k in range(20):
+        turn = rotation(k) if rotated else np.eye(3)
+        stretch = np.diag([0.3, 0.3 + 0.02 * k, -0.2 if k % 3 == 0 else 0.2])
+        place = placed(turn @ stretch, rng.uniform(-1.5, 1.5, 3))
+        scene.add_instance(copies, place)
+        if k % 5 == 0:
+            scene.add_instance(copies, place)
+        scene.add_instance(sphere, placed(turn * 0.15, rng.uniform(-1.5, 1.5, 3)))
+    scene.add_instance(plane, placed(np.eye(3), np.array([0.0, 0.0, -2.0])))
+    scene.build()
+    return scene
+
+
+@pytest.mark.parametrize("rotated", [False, True])
+@pytest.mark.parametrize("width", [1e-4, 1e-2, 0.1])
+def test_a_beam_through_a_general_world_hits_what_its_rays_hit_alone(rotated: bool, width: float):
+    scene = general_world(rotated)
+    origins, directions = beams(500, width, seed=13)
+    hits = assert_bundles_as_alone(scene, origins, directions)
+    assert len(np.unique(hits.instance)) > 20
+    assert np.mean(hits.triangle >= 0) > 0.5
+    shift = np.random.default_rng(14).uniform(-0.02, 0.02, origins.shape).astype(np.float32)
+    assert_bundles_as_alone(scene, origins + shift, directions)
+    assert_bundles_as_alone(scene, origins + shift, directions, t_max=1.0)
+
+
+@pytest.mark.parametrize("isa", ["baseline", "avx2", "avx512"])
+def test_every_instruction_set_brings_a_ray_into_a_placed_mesh_alike(isa: str):
+    ball = icosphere(4)
+    origins, directions = beams(300, 1e-2, seed=15)
+    expected = None
+    for instruction_set in ("baseline", isa):
+        scene = RayScene("bvh", instruction_set=instruction_set)
+        copies = scene.add_mesh(ball.vertices, ball.triangles)
+        for k in range(8):
+            scene.add_instance(copies, placed(0.4 * rotation(k), np.array([0.3 * k - 1, 0.1 * k, 0.2])))
+        scene.build()
+        hits = scene.intersect(origins, directions)
+        expected = expected or hits
+        for name in ("t", "u", "v", "triangle", "instance"):
+            assert np.array_equal(getattr(hits, name), getattr(expected, name)), name
+    assert np.mean(hits.triangle >= 0) > 0.1
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+def test_beams_do_not_leak_out_of_a_placed_mesh(scale: float):
+    ball = icosphere(4)
+    scene = RayScene("bvh")
+    copies = scene.add_mesh(ball.vertices, ball.triangles)
+    centre = scale * np.array([3.0, -2.0, 1.0])
+    scene.add_instance(copies, placed(scale * rotation(16), centre))
+    scene.add_instance(copies, placed(0.1 * scale * rotation(17), centre + 5 * scale))
+    scene.build()
+    origins, directions = beams(1000, 1e-2, seed=18)
+    eye = np.float32(centre + scale * np.array([0.1, 0.2, -0.1]))
+    hits = assert_bundles_as_alone(scene, np.broadcast_to(eye, origins.shape).copy(), directions)
+    assert (hits.instance == 0).all()
