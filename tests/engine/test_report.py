@@ -20,6 +20,7 @@ from trg_blender.engine.report import (
     format_clock,
     format_progress,
     seconds_left,
+    seconds_to_target,
     with_source,
 )
 from trg_blender.engine.scene_arrays import Material, RenderSettings, Texture
@@ -140,6 +141,16 @@ def test_the_statistics_line_reads_as_documented():
     endless = Progress(False, False, 12.0, ENDLESS_SAMPLES, PictureError(0.02), 0.0, 1.0, 3.0)
     assert format_progress(endless) == "sample 12, rmse 0.02, 00:03 left"
     assert endless.share == pytest.approx(0.25)
+
+
+def test_the_line_says_when_the_error_target_will_be_met():
+    error = PictureError(0.02)
+    left = seconds_to_target(1.0, 0.01, error)
+    running = Progress(False, False, 12.0, 64, error, 0.0, 1.0, 2.0, 0.01, left)
+    assert format_progress(running) == "sample 12/64, rmse 0.02, target 0.01 in 00:03, 00:02 left"
+    assert seconds_to_target(1.0, 0.0, error) is None
+    assert seconds_to_target(1.0, 0.01, PictureError()) is None
+    assert seconds_to_target(1.0, 0.05, error) == 0.0
 
 
 def test_the_first_limit_tells_how_long_it_takes():

@@ -237,6 +237,8 @@ class TRGRenderEngine(bpy.types.RenderEngine):
     def _say(self, progress: Progress) -> None:
         self.update_progress(progress.share)
         self.update_stats("TRG", format_progress(progress))
+        if not progress.done:
+            records.keep_progress(self.scene_name, progress)
         if records.watcher is not None:
             records.watcher(progress)
 

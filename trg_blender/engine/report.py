@@ -37,6 +37,10 @@ class Progress:
     rays_per_second: float
     seconds: float
     seconds_left: float | None
+    error_target: float = 0.0
+    """RMSE at which the render stops; 0: no such stop"""
+    seconds_to_target: float | None = None
+    """None where there is no target, or the error is not known yet"""
 
     @property
     def share(self) -> float:
@@ -220,9 +224,17 @@ def seconds_left(state: Mapping[str, Any], settings: RenderSettings, error: Pict
         guesses.append(seconds * (state["target"] / samples - 1.0))
     if settings.seconds > 0.0:
         guesses.append(settings.seconds - seconds)
-    if settings.rmse > 0.0 and error.rmse is not None:
-        guesses.append(seconds * ((error.rmse / settings.rmse) ** 2 - 1.0))
+    to_target = seconds_to_target(seconds, settings.rmse, error)
+    if to_target is not None:
+        guesses.append(to_target)
     return max(min(guesses), 0.0) if guesses else None
+
+
+def seconds_to_target(seconds: float, target: float, error: PictureError) -> float | None:
+    """Until the error is `target`, as it falls with the root of the time; None where that is not known."""
+    if target <= 0.0 or error.rmse is None:
+        return None
+    return max(seconds * ((error.rmse / target) ** 2 - 1.0), 0.0)
 
 
 def interval_list(error: PictureError) -> list[float] | None:
@@ -277,7 +289,10 @@ ENDLESS_SAMPLES = 2**20
 
 
 def format_progress(progress: Progress) -> str:
-    """One line: `sample 12/64, rmse 0.021 (0.019 to 0.023), 3.4 Mrays/s, 00:04 left`; no unknown parts."""
+    """One line: `sample 12/64, rmse 0.021 (0.019 to 0.023), 3.4 Mrays/s, 00:04 left`; no unknown parts.
+
+    With an error target also `target 0.01 in 00:09`, which may be later than another limit.
+    """
     endless = progress.target >= ENDLESS_SAMPLES
     parts = [f"sample {int(progress.samples)}" + ("" if endless else f"/{progress.target}")]
     error = progress.error
@@ -285,6 +300,8 @@ def format_progress(progress: Progress) -> str:
         parts.append(f"rmse {error.rmse:.2g}")
     if error.ci95 is not None:
         parts[-1] += f" ({error.ci95[0]:.2g} to {error.ci95[1]:.2g})"
+    if progress.seconds_to_target is not None and not progress.done:
+        parts.append(f"target {progress.error_target:.2g} in {format_clock(progress.seconds_to_target)}")
     if progress.rays_per_second > 0.0:
         parts.append(f"{format_rate(progress.rays_per_second)}rays/s")
     if progress.seconds_left is not None and not progress.done:

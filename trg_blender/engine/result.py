@@ -181,17 +181,25 @@ class RenderRecords:
     _reports: dict[str, dict[str, Any]] = field(default_factory=dict)
     _failures: dict[str, Failure] = field(default_factory=dict)
     _frames: dict[str, SampledFrame] = field(default_factory=dict)
+    _progress: dict[str, Progress] = field(default_factory=dict)
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
     def keep_report(self, scene_name: str, report: dict[str, Any]) -> None:
         """Remembers `report` as the last one of the scene."""
         with self._lock:
             self._reports[scene_name] = report
+            self._progress.pop(scene_name, None)
 
     def keep_failure(self, scene_name: str, failure: Failure) -> None:
         """Remembers why the scene's last render gave no picture."""
         with self._lock:
             self._failures[scene_name] = failure
+            self._progress.pop(scene_name, None)
+
+    def keep_progress(self, scene_name: str, progress: Progress) -> None:
+        """Remembers how far the scene's running render has come, until it ends."""
+        with self._lock:
+            self._progress[scene_name] = progress
 
     def exchange_frame(self, scene_name: str, frame: SampledFrame) -> SampledFrame | None:
         """Remembers the frame that the scene's next one blends with; gives the one before."""
@@ -205,14 +213,25 @@ class RenderRecords:
         with self._lock:
             return self._reports.get(scene_name)
 
+    def progress_of(self, scene_name: str) -> Progress | None:
+        """How far the scene's render has come; None while there is none."""
+        with self._lock:
+            return self._progress.get(scene_name)
+
+    def is_rendering(self) -> bool:
+        """Whether any scene's render is under way."""
+        with self._lock:
+            return bool(self._progress)
+
     def failure_of(self, scene_name: str) -> Failure | None:
         """Why the scene's last render gave no picture; None when it gave one."""
         with self._lock:
             return self._failures.get(scene_name)
 
     def forget(self, scene_name: str) -> None:
-        """Forgets both: a new render begins."""
+        """Forgets all of it: a new render begins."""
         with self._lock:
+            self._progress.pop(scene_name, None)
             self._reports.pop(scene_name, None)
             self._failures.pop(scene_name, None)
 

@@ -24,7 +24,7 @@ from .mfaa import SampledFrame
 from .native import ACCELERATORS, load_native
 from .native_scene import build_native_scene
 from .passes import KERNEL_PASSES, PassSource, film_shape, job_passes, read_combined, read_passes
-from .report import HistoryEntry, Progress, RenderFacts, build_report, seconds_left
+from .report import HistoryEntry, Progress, RenderFacts, build_report, seconds_left, seconds_to_target
 from .scene_arrays import Float32, Float64, RenderSettings, SceneArrays
 from .scene_check import check_camera, check_scene, check_settings
 
@@ -255,6 +255,8 @@ class RenderJob:
             rays_per_second=rate,
             seconds=state["seconds"],
             seconds_left=seconds_left(state, self._settings, self._error),
+            error_target=self._settings.rmse,
+            seconds_to_target=seconds_to_target(state["seconds"], self._settings.rmse, self._error),
         )
 
     def _facts(self) -> RenderFacts:

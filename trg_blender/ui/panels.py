@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import bpy
 
-from ..engine.result import records
 from ..engine.run_text import ENGINE_ID
-from . import pass_panels
+from . import pass_panels, report_panel
 from .engine_panel import EnginePanel
 from .parameter_rows import draw_parameters
 
@@ -100,37 +98,6 @@ def _draw_antialiasing(layout: bpy.types.UILayout, own: bpy.types.PropertyGroup)
         layout.prop(own, "aa_side")
 
 
-class TRG_RENDER_PT_report(_RenderPanel, bpy.types.Panel):
-    """Error and time of the last render."""
-
-    bl_label = "Last Report"
-
-    @classmethod
-    def poll(cls, context: bpy.types.Context) -> bool:
-        return super().poll(context) and records.report_of(context.scene.name) is not None
-
-    def draw(self, context: bpy.types.Context) -> None:
-        report = records.report_of(context.scene.name)
-        for line in report_lines(report):
-            self.layout.label(text=line)
-        for warning in report["warnings"]:
-            self.layout.label(text=warning, icon="ERROR")
-
-
-def report_lines(report: dict[str, Any]) -> list[str]:
-    """The figures of a report that an artist asks for first."""
-    error, seconds = report["error"], report["seconds"]
-    lines = [f"{report['samples']:g} samples in {seconds['total']:.2f} s"]
-    if error.get("rmse") is not None:
-        lines.append(f"RMSE {error['rmse']:.4g}")
-        if error["ci95"] is not None:
-            low, high = error["ci95"]
-            lines[-1] += f" (95 %: {low:.4g} to {high:.4g})"
-    if error.get("note"):
-        lines.append(error["note"])
-    return lines
-
-
 def _adopted() -> Iterator[type]:
     """Panels of Blender that TRG shows."""
     for panel in bpy.types.Panel.__subclasses__():
@@ -145,7 +112,7 @@ CLASSES = (
     TRG_RENDER_PT_program,
     TRG_RENDER_PT_parameters,
     TRG_RENDER_PT_sampling,
-    TRG_RENDER_PT_report,
+    *report_panel.CLASSES,
     *pass_panels.CLASSES,
 )
 

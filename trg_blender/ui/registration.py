@@ -7,7 +7,17 @@ import atexit
 import bpy
 
 from ..engine import render_engine, run_text
-from . import command, live_parameters, object_panel, operators, panels, preferences, properties, run_on_load
+from . import (
+    command,
+    live_parameters,
+    object_panel,
+    operators,
+    panels,
+    preferences,
+    properties,
+    report_panel,
+    run_on_load,
+)
 from .image_editor import parts as image_editor
 from .text_editor import parts as text_editor
 
@@ -19,6 +29,7 @@ PARTS = (
     live_parameters,
     run_on_load,
     operators,
+    report_panel,
     panels,
     object_panel,
     text_editor,
