@@ -10,6 +10,7 @@ import contextlib
 import logging
 import math
 import time
+import weakref
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -32,6 +33,7 @@ from .run_text import ENGINE_ID
 from .scene_arrays import Float32, RenderSettings, SceneArrays
 from .shots import shots
 from .to_blender import requested_modes
+from .viewport import Viewport, close_all, shown_errors, status_of
 
 POLL_SECONDS = 0.03
 BUDGET = 3
@@ -90,7 +92,7 @@ def reported_errors(engine: TRGRenderEngine, doing: str) -> Iterator[None]:
 
 
 class TRGRenderEngine(bpy.types.RenderEngine):
-    """Final renders by TRG; the viewport keeps EEVEE."""
+    """Final renders and rendered viewports by TRG; material previews are EEVEE's."""
 
     bl_idname = ENGINE_ID
     bl_label = "TRG"
@@ -103,6 +105,9 @@ class TRGRenderEngine(bpy.types.RenderEngine):
     scene_name: str = ""
     kept: dict[str, KeptScene] | None = None
     """by view layer; only with persistent data, where Blender keeps the engine as well"""
+
+    viewport: Viewport | None = None
+    """of an engine that draws one"""
 
     def refuse(self, failure: Failure) -> None:
         """No picture: report() stops the render and the file; error_set() shows it in the image editor."""
@@ -132,6 +137,36 @@ class TRGRenderEngine(bpy.types.RenderEngine):
             return
         with reported_errors(self, "rendering"):
             self._render(frame, depsgraph)
+
+    def view_update(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Called by Blender when what the viewport shows has changed: copies it."""
+        viewport = self._viewport()
+        with shown_errors(viewport, "reading the scene"):
+            viewport.update(depsgraph, preview_settings(depsgraph))
+
+    def view_draw(self, context: bpy.types.Context, depsgraph: bpy.types.Depsgraph) -> None:
+        """Called by Blender to draw a viewport, also whenever it is turned."""
+        viewport = self._viewport()
+        with shown_errors(viewport, "drawing"):
+            viewport.draw(context, depsgraph)
+        self.update_stats("TRG", status_of(viewport.tracer, depsgraph.scene))
+
+    def __del__(self) -> None:
+        if self.viewport is not None:
+            self.viewport.close()
+
+    def _viewport(self) -> Viewport:
+        if self.viewport is None:
+            me = weakref.ref(self)
+
+            def redraw() -> None:
+                engine = me()
+                if engine is not None:
+                    with contextlib.suppress(ReferenceError):  # Blender has freed it
+                        engine.tag_redraw()
+
+            self.viewport = Viewport(redraw)
+        return self.viewport
 
     def _read(self, data: bpy.types.BlendData, depsgraph: bpy.types.Depsgraph) -> Frame:
         scene = depsgraph.scene_eval
@@ -310,6 +345,14 @@ def settings_of(
     )
 
 
+def preview_settings(depsgraph: bpy.types.Depsgraph) -> RenderSettings:
+    """Settings of viewports: those of renders, but for the samples. The size is each view's own."""
+    scene = depsgraph.scene_eval
+    modes = requested_modes(depsgraph.scene)
+    settings = settings_of(scene, depsgraph.view_layer, (1, 1), modes, [])
+    return replace(settings, samples=scene.trg.preview_samples)
+
+
 def choose_device(wish: str | int | None, warnings: list[str]) -> str:
     """The program's wish if it can be had, else the native core, else the reference on Embree."""
     if wish in DEVICE_NAMES:
@@ -326,4 +369,9 @@ def choose_device(wish: str | int | None, warnings: list[str]) -> str:
 
 CLASSES = (TRGRenderEngine,)
 
-register, unregister = bpy.utils.register_classes_factory(CLASSES)
+register, _unregister = bpy.utils.register_classes_factory(CLASSES)
+
+
+def unregister() -> None:
+    close_all()
+    _unregister()

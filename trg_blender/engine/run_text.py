@@ -38,6 +38,8 @@ class ProgramTable:
         self._runners: dict[str, ProgramRunner] = {}
         self._pending: dict[str, _Pending] = {}
         self._is_running = False
+        self.last_failures: dict[str, str] = {}
+        """by scene: why the last run of its program built nothing; not there when it did"""
 
     def runner_of(self, scene: bpy.types.Scene) -> ProgramRunner:
         return self._runners.setdefault(scene.name, ProgramRunner())
@@ -49,6 +51,7 @@ class ProgramTable:
     def forget_all(self) -> None:
         self._runners.clear()
         self._pending.clear()
+        self.last_failures.clear()
 
     def run(self, scene: bpy.types.Scene, frame: int) -> ProgramOutcome | None:
         """See run_program. One program at a time: a second one, started from within, is refused."""
@@ -59,9 +62,13 @@ class ProgramTable:
             return ProgramOutcome(frame, ProgramFailure("another program is running"))
         self._is_running = True
         try:
-            return self.runner_of(scene).run(scene, text, frame)
+            outcome = self.runner_of(scene).run(scene, text, frame)
         finally:
             self._is_running = False
+        self.last_failures.pop(scene.name, None)
+        if outcome.failure is not None:
+            self.last_failures[scene.name] = outcome.failure.text
+        return outcome
 
     def run_in_handler(self, scene: bpy.types.Scene) -> None:
         """Build the scene's current frame on the main thread; keep what goes wrong for the engine.
@@ -127,6 +134,11 @@ def read_program(scene: bpy.types.Scene) -> lang.Program | None:
 def take_pending_error(scene: bpy.types.Scene | None = None) -> ProgramFailure | None:
     """What a handler could not say, once; without a scene, that of any."""
     return programs.take_pending(scene)
+
+
+def last_failure(scene: bpy.types.Scene) -> str:
+    """Why the last run of the scene's program built nothing; empty when it did, or never ran."""
+    return programs.last_failures.get(scene.name, "") if program_of(scene) is not None else ""
 
 
 def program_log(scene: bpy.types.Scene) -> list[str]:

@@ -67,6 +67,7 @@ class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):
         own = context.scene.trg
         stops = own.use_time_limit or own.use_error_target
         layout.prop(own, "samples", text="Max Samples" if stops else "Samples")
+        layout.prop(own, "preview_samples")
         for use, value in (("use_error_target", "error_target"), ("use_time_limit", "time_limit")):
             row = layout.row(heading=own.bl_rna.properties[use].name)
             row.prop(own, use, text="")

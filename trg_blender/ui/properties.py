@@ -69,6 +69,13 @@ class TRGSceneSettings(bpy.types.PropertyGroup):
     samples: bpy.props.IntProperty(  # type: ignore[valid-type]
         name="Samples", description="Light paths traced for each pixel", default=64, min=1, soft_max=4096
     )
+    preview_samples: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Viewport Samples",
+        description="Light paths traced for each pixel of a rendered viewport; 0 is no limit",
+        default=256,
+        min=0,
+        soft_max=4096,
+    )
     use_time_limit: bpy.props.BoolProperty(  # type: ignore[valid-type]
         name="Time Limit", description="Stop a frame after some seconds of tracing", default=False
     )

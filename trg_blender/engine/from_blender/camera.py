@@ -40,12 +40,12 @@ def read_camera(
     camera = Camera(
         CAMERA_KINDS.index("orthographic" if orthographic else "perspective"),
         _rigid_matrix(owner.matrix_world, owner.name),
-        _window(projection, orthographic),
+        window_of(projection, orthographic),
         clip_start=float(data.clip_start),
         clip_end=float(data.clip_end),
     )
     if data.dof.use_dof:
-        _add_lens(camera, data, depsgraph)
+        add_lens(camera, data, depsgraph)
     return camera
 
 
@@ -65,7 +65,7 @@ def _panorama(owner: bpy.types.Object, warnings: list[str]) -> Camera:
 SMALLEST_FOCUS = 1e-5
 
 
-def _add_lens(camera: Camera, data: bpy.types.Camera, depsgraph: bpy.types.Depsgraph) -> None:
+def add_lens(camera: Camera, data: bpy.types.Camera, depsgraph: bpy.types.Depsgraph) -> None:
     """Blender's depth of field: half the lens over the f-stop; an orthographic lens has one metre."""
     dof = data.dof
     lens = 1.0 if data.type == "ORTHO" else data.lens * 1e-3
@@ -101,7 +101,7 @@ def _rigid_matrix(matrix: Matrix, name: str) -> np.ndarray:
     return unscaled
 
 
-def _window(projection: Matrix, orthographic: bool) -> tuple[float, float, float, float]:
+def window_of(projection: Matrix, orthographic: bool) -> tuple[float, float, float, float]:
     """(left, right, bottom, top): the picture's edges are where clip x or y is -1 and 1."""
     edges = []
     for row in (0, 1):

@@ -18,18 +18,52 @@ LINEAR_SPACES = ("Non-Color", "Linear", "Linear Rec.709", "Raw", "Generic Data")
 
 
 @dataclass(slots=True)
+class KnownImages:
+    """Images as they were read before; only those are kept that change by a word of Blender's alone."""
+
+    _images: dict[tuple[object, ...], ImageArrays] = field(default_factory=dict)
+
+    def find(self, image: bpy.types.Image | None) -> ImageArrays | None:
+        return None if image is None or image.is_dirty else self._images.get(_identity(image))
+
+    def keep(self, image: bpy.types.Image | None, arrays: ImageArrays) -> None:
+        if image is not None and image.source == "FILE" and not image.is_dirty:
+            self._images[_identity(image)] = arrays
+
+    def forget(self, name: str) -> None:
+        """Of every image of that name."""
+        self._images = {key: value for key, value in self._images.items() if key[0] != name}
+
+    def clear(self) -> None:
+        self._images.clear()
+
+
+def _identity(image: bpy.types.Image) -> tuple[object, ...]:
+    """What tells the pixels of an image from others without looking at them."""
+    space = image.colorspace_settings.name
+    return (image.name, image.filepath, tuple(image.size), image.channels, image.alpha_mode, space)
+
+
+@dataclass(slots=True)
 class ImagePool:
     """Images met so far, each read once."""
 
     warnings: list[str]
     images: list[ImageArrays] = field(default_factory=list)
+    known: KnownImages | None = None
+    """of the scene as it was read before"""
     _rows: dict[int, int] = field(default_factory=dict)
 
     def row(self, image: bpy.types.Image | None, where: str) -> int:
         """Row of `image`; a row of pink, and one warning, when it has no pixels."""
         key = image.as_pointer() if image is not None else 0
         if key not in self._rows:
-            self.images.append(read_image(image, where, self.warnings))
+            found = None if self.known is None else self.known.find(image)
+            if found is None:
+                found = read_image(image, where, self.warnings)
+                if self.known is not None:
+                    self.known.keep(image, found)
+            self.images.append(found)
             self._rows[key] = len(self.images) - 1
         return self._rows[key]
 

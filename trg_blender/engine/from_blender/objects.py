@@ -35,6 +35,8 @@ class MeshGroup:
     """what the object's tags say that its mesh stands for: one of SHAPES"""
     rows: list[int] = field(default_factory=list)
     """indices into Found.transforms"""
+    owners: set[str] = field(default_factory=set)
+    """names of the objects, and of those that make instances of them"""
 
 
 @dataclass(slots=True)
@@ -69,7 +71,10 @@ def find_objects(depsgraph: bpy.types.Depsgraph, warnings: list[str]) -> Found:
         if kind == "MESH":
             if not instance.is_instance:
                 randoms[row] = _random_of_name(owner.name)
-            _add_mesh(groups, owner, row, warnings)
+            group = _add_mesh(groups, owner, row, warnings)
+            group.owners.add(owner.name)
+            if instance.is_instance and instance.parent is not None:
+                group.owners.add(instance.parent.name)
         elif kind == "LIGHT":
             source = instance.instance_object if instance.is_instance else owner
             lights.append((source, row))
@@ -81,7 +86,7 @@ def find_objects(depsgraph: bpy.types.Depsgraph, warnings: list[str]) -> Found:
 
 def _add_mesh(
     groups: dict[tuple[int, ...], MeshGroup], owner: bpy.types.Object, row: int, warnings: list[str]
-) -> None:
+) -> MeshGroup:
     mesh = owner.data
     materials = tuple(slot.material for slot in owner.material_slots) or (None,)
     shape = claimed_shape(owner)
@@ -94,6 +99,7 @@ def _add_mesh(
         if not owner.visible_camera:
             warnings.append(f"object {owner.name!r}: visibility by kind of ray is not supported")
     group.rows.append(row)
+    return group
 
 
 def _random_of_name(name: str) -> float:

@@ -10,17 +10,17 @@ from mathutils import Matrix
 from numpy.typing import NDArray
 
 from ..errors import SceneError
-from ..scene_arrays import Float32, Identity, InstanceArrays, MeshArrays, SceneArrays
+from ..scene_arrays import Camera, Float32, Identity, InstanceArrays, MeshArrays, SceneArrays
 from .camera import read_camera
 from .classic import read_ambient
 from .identities import NEEDS_IDENTITIES, read_identities, read_pass_data
+from .known_data import KnownData, KnownMeshes
 from .lights import read_light
 from .materials import MaterialTable
 from .meshes import MeshRequest, read_mesh
 from .motion import FrameSet, Motion, read_motion, shutter_of
 from .objects import Found, MeshGroup, find_objects
 from .shapes import is_unedited
-from .world import read_world
 
 FLAT_DETERMINANT = 1e-18
 """Instances squeezed flatter than this are stored in world space: no renderer can invert them."""
@@ -37,6 +37,10 @@ class SceneReader:
     """those that will be asked for: some need names or UV maps that are else left out"""
     frame_set: FrameSet | None = None
     """moves the depsgraph in time, for motion blur; None: there is none"""
+    camera: Camera | None = None
+    """takes the place of the scene's, which need not have one then"""
+    known: KnownData | None = None
+    """meshes, images and world of the reading before; what is unchanged is the same object again"""
 
     def read(
         self, scene: bpy.types.Scene, depsgraph: bpy.types.Depsgraph, size: tuple[int, int]
@@ -66,11 +70,14 @@ class SceneReader:
         beside: tuple[Motion | None, list[str]],
     ) -> SceneArrays:
         motion, warnings = beside
-        camera = read_camera(scene, depsgraph, size, warnings)
+        known = self.known or KnownData()
+        known.begin(depsgraph)
+        camera = self.camera or read_camera(scene, depsgraph, size, warnings)
         camera.motion = None if motion is None else motion.camera
         found = find_objects(depsgraph, warnings)
         table = MaterialTable(warnings)
-        world = read_world(scene.world, warnings)
+        table.textures.pool.known = known.images
+        world = known.world(scene.world, warnings)
         arrays = SceneArrays(
             camera=camera,
             world=world.color,
@@ -79,7 +86,10 @@ class SceneReader:
             transparent_film=scene.render.film_transparent,
         )
         identities = read_identities(depsgraph) if NEEDS_IDENTITIES.intersection(self.passes) else []
-        _Meshes(arrays, table, self.fast, warnings, "uv" in self.passes, identities, motion).add_all(found)
+        meshes = _Meshes(arrays, table, self.fast, warnings, "uv" in self.passes, identities, motion)
+        meshes.store = known.meshes
+        meshes.add_all(found)
+        known.end()
         for owner, row in found.lights:
             light = read_light(owner, _matrix(found.transforms[row]), warnings)
             if light is not None:
@@ -111,6 +121,7 @@ class _Meshes:
     """by rows of Found.transforms; empty when no pass needs them"""
     motion: Motion | None = None
     known: dict[tuple[int, int, tuple[int, ...], str], int] = field(default_factory=dict)
+    store: KnownMeshes = field(default_factory=KnownMeshes)
 
     def add_all(self, found: Found) -> None:
         for group in found.groups:
@@ -185,8 +196,12 @@ class _Meshes:
             extra = tuple((number, names[number]) for number in wanted if number)
             request = MeshRequest(len(slots), self.with_uvs or 0 in wanted, extra, self.fast)
             self.known[key] = len(self.arrays.meshes)
-            mesh = read_mesh(group.mesh, request, self.warnings)
-            if is_unedited(mesh, group.shape):
-                mesh.shape = group.shape
+            asked = (group.mesh.as_pointer(), group.shape, request)
+            mesh = self.store.find(asked, group.owners)
+            if mesh is None:
+                mesh = read_mesh(group.mesh, request, self.warnings)
+                if is_unedited(mesh, group.shape):
+                    mesh.shape = group.shape
+                self.store.keep(asked, group.owners, mesh)
             self.arrays.meshes.append(mesh)
         return self.known[key]
