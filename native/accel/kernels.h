@@ -18,6 +18,8 @@ struct RayBatch {
 struct Kernels {
     void (*closest)(const WorldIndex& index, const RayBatch& batch, Hit* hits);
     void (*any)(const WorldIndex& index, const RayBatch& batch, uint8_t* hidden);
+    /// What `ray` meets at `time` next behind a hit of its own.
+    Hit (*beyond)(const WorldIndex& index, const Ray& ray, float time, const Hit& met);
 };
 
 namespace baseline {

@@ -35,7 +35,8 @@ TRG_FN uint32_t lanes_inside(const PlaneHits& hits, float t_min, float t_max) {
            mask_less_equal(hits.t, splat8(t_max));
 }
 
-TRG_FN void test_closest(const PlaneBlock& block, const TracedRay& ray, Search& search) {
+template <class AnySearch>
+TRG_FN void test_closest(const PlaneBlock& block, const TracedRay& ray, AnySearch& search) {
     const PlaneHits hits = meet_planes(block, ray);
     uint32_t left = lanes_inside(hits, ray.t_min, search.t);
     if (!left) return;

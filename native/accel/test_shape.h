@@ -31,7 +31,8 @@ TRG_FN Roots meet_shape(const Placement& placement, const TracedRay& ray) {
     return {meet_plane(local.origin, local.direction), NAN};
 }
 
-TRG_FN void test_closest(const Placement& placement, const TracedRay& ray, Search& search) {
+template <class AnySearch>
+TRG_FN void test_closest(const Placement& placement, const TracedRay& ray, AnySearch& search) {
     const Roots roots = meet_shape(placement, ray);
     for (const double root : {roots.near, roots.far}) {
         const auto t = static_cast<float>(root);

@@ -134,7 +134,8 @@ TRG_FN float lane_distance(const CornerBlock& block, int lane, bool certain, con
     return certain ? static_cast<float>(t) : edge_distance(block, lane, t, ray);
 }
 
-TRG_FN void test_closest(const CornerBlock& block, const TracedRay& ray, Search& search) {
+template <class AnySearch>
+TRG_FN void test_closest(const CornerBlock& block, const TracedRay& ray, AnySearch& search) {
     const LaneMasks lanes = filter_lanes(block, ray);
     for (uint32_t left = lanes.possible; left; left &= left - 1) {
         const int lane = lowest_bit(left);

@@ -110,8 +110,14 @@ TRG_FN void find_any(const WorldIndex& index, const RayBatch& batch, uint8_t* hi
         trace_any<CornerBlock>(index, batch, hidden);
 }
 
+TRG_FN Hit find_beyond(const WorldIndex& index, const Ray& ray, float time, const Hit& met) {
+    return index.triangle_test == TriangleTest::classic
+               ? hit_beyond<PlaneBlock>(index, ray, time, met)
+               : hit_beyond<CornerBlock>(index, ray, time, met);
+}
+
 Kernels trace_kernels() {
-    return {find_closest, find_any};
+    return {find_closest, find_any, find_beyond};
 }
 
 }  // namespace trg::TRG_ISA

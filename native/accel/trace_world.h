@@ -30,8 +30,8 @@ TRG_FN bool walk_soup(const Soup& soup, const TracedRay& ray, const float* limit
     return false;
 }
 
-template <class Block>
-TRG_FN void search_soup(const Soup& soup, const TracedRay& ray, Search& search) {
+template <class Block, class AnySearch>
+TRG_FN void search_soup(const Soup& soup, const TracedRay& ray, AnySearch& search) {
     const Block* blocks = blocks_of(soup, static_cast<const Block*>(nullptr));
     walk_soup<true, Block>(soup, ray, &search.limit, [&](uint32_t k) {
         test_closest(blocks[k], ray, search);
@@ -80,9 +80,8 @@ TRG_FN bool is_representable(const TracedRay& local) {
     return (zero == 0) & directed;
 }
 
-template <class Block>
-TRG_FN void search_placement(const Placement& placement, const TracedRay& ray,
-                                    Search& search) {
+template <class Block, class AnySearch>
+TRG_FN void search_placement(const Placement& placement, const TracedRay& ray, AnySearch& search) {
     search.current = &placement;
     if (placement.soup->shape != Shape::triangles)
         test_closest(placement, ray, search);
@@ -92,8 +91,8 @@ TRG_FN void search_placement(const Placement& placement, const TracedRay& ray,
         search_soup<Block>(*placement.soup, local, search);
 }
 
-template <class Block>
-TRG_FN void search_world(const WorldIndex& index, const TracedRay& ray, Search& search) {
+template <class Block, class AnySearch>
+TRG_FN void search_world(const WorldIndex& index, const TracedRay& ray, AnySearch& search) {
     const Placement* placements = index.placements.data();
     for (const Placement& plane : index.unbounded) search_placement<Block>(plane, ray, search);
     if (index.placements.size() == 1) return search_placement<Block>(*placements, ray, search);
@@ -177,6 +176,20 @@ TRG_FN Hit closest_hit(const WorldIndex& index, const Ray& ray, float time = kMi
     TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
     traced.time = time;
     Search search = start_search(scaled.ray.t_max);
+    search_world<Block>(index, traced, search);
+    return resolve_hit<Block>(search, traced, scaled.scale);
+}
+
+/// What the ray meets next behind `met`, which it met before.
+template <class Block>
+TRG_FN Hit hit_beyond(const WorldIndex& index, const Ray& ray, float time, const Hit& met) {
+    if (!is_traceable(ray) || is_empty(index)) return no_hit();
+    const ScaledRay scaled = scale_ray(ray);
+    const float after = met.t * scaled.scale;
+    TracedRay traced =
+        prepare_ray(scaled.ray.origin, scaled.ray.direction, std::nextafter(after, 0.0f));
+    traced.time = time;
+    SearchBeyond search{start_search(scaled.ray.t_max), after, {met.instance, met.triangle}};
     search_world<Block>(index, traced, search);
     return resolve_hit<Block>(search, traced, scaled.scale);
 }

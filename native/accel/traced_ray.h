@@ -89,6 +89,22 @@ TRG_FN bool improves(const Search& search, float t, int32_t prim) {
     return t < search.t || (t == search.t && comes_first(search, prim));
 }
 
+/// A search for what comes after a known hit, in the order of (t, instance, triangle).
+struct SearchBeyond : Search {
+    float after;
+    PrimOrigin met;
+};
+
+TRG_FN bool improves(const SearchBeyond& search, float t, int32_t prim) {
+    if (t == search.after) {
+        const PrimOrigin at = origin_of(*search.current, prim);
+        if (at.instance < search.met.instance ||
+            (at.instance == search.met.instance && at.triangle <= search.met.triangle))
+            return false;
+    }
+    return improves(static_cast<const Search&>(search), t, prim);
+}
+
 TRG_FN void record_hit(Search& search, float t, const void* block, int lane, int32_t prim) {
     search.t = t;
     search.limit = t * kFarFactor;

@@ -71,6 +71,10 @@ void intersect_closest(const World& world, const Ray* rays, Hit* hits, int count
     world.index->kernels.closest(*world.index, {rays, times, count}, hits);
 }
 
+Hit intersect_beyond(const World& world, const Ray& ray, float time, const Hit& met) {
+    return world.index->kernels.beyond(*world.index, ray, time, met);
+}
+
 void intersect_any(const World& world, const Ray* rays, uint8_t* hidden, int count,
                    const float* times) {
     world.index->kernels.any(*world.index, {rays, times, count}, hidden);

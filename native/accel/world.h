@@ -114,6 +114,10 @@ UpdateStats move_vertices(World& world, int mesh, std::vector<Vec3> vertices, in
 void intersect_closest(const World& world, const Ray* rays, Hit* hits, int count,
                        const float* times = nullptr);
 
+/// What `ray` meets at `time` after `met`, a hit of its own, in the order of (t, instance,
+/// triangle). As thread-safe as above.
+Hit intersect_beyond(const World& world, const Ray& ray, float time, const Hit& met);
+
 /// Sets `hidden[i]` to 1 where ray i meets any triangle, else to 0. As thread-safe as above.
 void intersect_any(const World& world, const Ray* rays, uint8_t* hidden, int count,
                    const float* times = nullptr);

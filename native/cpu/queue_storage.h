@@ -45,6 +45,8 @@ class QueueStorage {
                 results_.data(),
                 receivers_.data(),
                 media_.data(),
+                boundaries_.data(),
+                shadow_media_.data(),
                 shadow_rays_.data(),
                 shadows_.data(),
                 hidden_.data(),
@@ -59,6 +61,11 @@ class QueueStorage {
         classic_ = std::make_unique<ClassicStorage>(static_cast<int32_t>(rays_.size()), depth);
         classic_view_ = classic_->view();
     }
+    /// Adds what media with priorities need.
+    void add_boundaries() {
+        boundaries_.resize(rays_.size());
+        shadow_media_.resize(shadow_rays_.size());
+    }
     float* depth() { return depth_.data(); }
 
   private:
@@ -69,6 +76,8 @@ class QueueStorage {
     std::vector<PathResult> results_;
     std::vector<Vec3> receivers_;
     std::vector<MediaStack> media_;
+    std::vector<Boundary> boundaries_;
+    std::vector<MediaStack> shadow_media_;
     std::vector<Ray> shadow_rays_;
     std::vector<ShadowState> shadows_;
     std::vector<uint8_t> hidden_;

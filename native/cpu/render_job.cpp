@@ -82,6 +82,8 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
     if (scene.tables.is_classic)
         for (QueueStorage& storage : storages_)
             storage.add_classic(std::min(request.max_bounces, kDeepestClassic));
+    if (view_.scene.nested)
+        for (QueueStorage& storage : storages_) storage.add_boundaries();
     running_ = threads;
     try {
         for (int k = 0; k < threads; ++k)

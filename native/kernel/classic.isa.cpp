@@ -10,7 +10,7 @@ namespace {
 /// Moves the camera's rays to the queue.
 void queue_camera_rays(PathQueues& queues, ClassicQueues& classic, int32_t count) {
     for (int32_t i = 0; i < count; ++i)
-        classic.pending[i] = {queues.rays[i], {1.0f, 1.0f, 1.0f}, 0.0f, i, 0};
+        classic.pending[i] = {queues.rays[i], {1.0f, 1.0f, 1.0f}, queues.media[i], i, 0};
     classic.count = count;
 }
 
@@ -49,6 +49,7 @@ bool render_classic(const RenderView& view, const Chunk& chunk, PathQueues& queu
     ClassicQueues& classic = *queues.classic;
     const int32_t paths = generate_paths(view, chunk, queues);
     counts->camera += paths;
+    if (view.scene.nested) begin_media<F>(view.scene, queues, paths);
     queue_camera_rays(queues, classic, paths);
     for (bool first = true; classic.count > 0; first = false) {
         if (cancelled.load(std::memory_order_relaxed)) return false;

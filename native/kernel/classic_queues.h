@@ -10,7 +10,7 @@ namespace trg {
 struct PendingRay {
     Ray ray;
     Vec3 weight;
-    float decay;  // of the medium that it is in
+    MediaStack media;  // that it is in; the innermost rules, or the one of the highest priority
     int32_t path;
     int32_t depth;  // 0 for a camera ray
 };
@@ -21,13 +21,15 @@ struct ClassicVertex {
     Vec3 wo, ng, ns;
     ClassicMaterial material;  // textures looked up
     Vec3 weight;
+    MediaStack media, beyond;  // on both sides
+    float ratio;               // index beyond over index on this side
     int32_t path;
 };
 
 /// Light on its way to a vertex.
 struct ClassicShadow {
     Vec3 light;
-    float decay;  // of the medium between
+    MediaStack media;  // between
     int32_t path;
 };
 

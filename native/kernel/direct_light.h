@@ -15,7 +15,9 @@ struct Vertex {
     Frame frame;  // around the shading normal on the viewer's side
     Bsdf bsdf;
     Vec3 throughput;
-    Vec3 absorption[2];  // per unit of length, on the side of ng and beyond the surface
+    Vec3 absorption[2];          // per unit of length, on the side of ng and beyond the surface
+    const MediaStack* media[2];  // likewise, where media have priorities; else null
+    const Boundary* boundary;    // between media with priorities, or null
     SampleKey key;
     uint32_t dimension;
     int32_t path;
@@ -25,7 +27,15 @@ struct ShadowQueue {
     Ray* rays;
     ShadowState* states;
     int32_t count;
+    MediaStack* media;  // where each starts, if media have priorities
 };
+
+/// Tells the next shadow ray, from `v` along `wi`, which media it starts in.
+template <uint32_t F>
+TRG_FN void tell_media(const Vertex& v, Vec3 wi, ShadowQueue* queue) {
+    if constexpr (has(F, kMedia))
+        if (v.media[0]) queue->media[queue->count] = *v.media[dot(v.ng, wi) < 0.0f];
+}
 
 /// Emission of the surface `s` towards `wo`.
 template <uint32_t F>
@@ -63,6 +73,7 @@ TRG_FN void queue_sample(const LightSample& sample, const Vertex& v, float share
     if (is_black(light)) return;
     // The last bit of the way is left out: geometry may touch the light.
     const float t_max = sample.distance < kFar ? sample.distance * 0.999998f : kFar;
+    tell_media<F>(v, sample.wi, queue);
     queue->rays[queue->count] = {ray_origin(v.surface, v.ng, sample.wi), 0.0f, sample.wi, t_max};
     queue->states[queue->count++] = {light, v.path};
 }
@@ -113,6 +124,7 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v,
     if constexpr (has(F, kMedia)) light = light * dimmed_to<F>(v, wi, std::sqrt(d2));
     if (is_black(light)) return;
     const Vec3 origin = ray_origin(v.surface, v.ng, wi);
+    tell_media<F>(v, wi, queue);
     queue->rays[queue->count] = {origin, 0.0f, target - origin, 1.0f};
     queue->states[queue->count++] = {light, v.path};
 }

@@ -69,6 +69,7 @@ TRG_FN void add_ambient_ray(const RenderView& view, const Vertex& v, ShadowQueue
     const Sample2 uv = sample_uniform2(v.key, kAmbientDimension);
     const Vec3 wi = normalize(to_world(v.frame, sample_cosine(uv.u, uv.v)));
     if (!(dot(wi, v.ng) > 0.0f)) return;
+    if (v.media[0]) queue->media[queue->count] = *v.media[0];
     queue->rays[queue->count] = {ray_origin(v.surface, v.ng, wi), 0.0f, wi,
                                  view.passes.ambient_distance};
     queue->states[queue->count++] = {{1.0f, 1.0f, 1.0f}, ~v.path};

@@ -49,13 +49,21 @@ struct PassQueues {
 };
 struct ClassicQueues;
 
-constexpr int32_t kMostMedia = 4;
+constexpr int32_t kMostMedia = 8;
 
 /// The materials whose insides a path is in, in the order of entering; more than these are not
 /// told.
 struct MediaStack {
     int32_t count;
     int32_t materials[kMostMedia];
+};
+
+/// The boundary that a path met, where media with priorities meet.
+struct Boundary {
+    MediaStack beyond;
+    float ratio;     // index beyond over index on this side; 0: no such boundary
+    int32_t energy;  // where the table of its facets' albedo begins, or -1
+    float slack;     // how far along the normal surfaces lie that count as this one
 };
 
 /// Arrays of `capacity` paths; slots [0, count) hold the living ones.
@@ -68,6 +76,8 @@ struct PathQueues {
     PathResult* results;  // by path
     Vec3* receivers;    // by path: normal that light was drawn for last, null for any; for the tree
     MediaStack* media;  // by path
+    Boundary* boundaries;      // by path: of its hit; only where media have priorities
+    MediaStack* shadow_media;  // by shadow ray: where it starts; likewise
     Ray* shadow_rays;
     ShadowState* shadows;
     uint8_t* hidden;

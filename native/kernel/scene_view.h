@@ -110,8 +110,12 @@ struct SceneView {
     const int64_t* first_slot;      // one an instance
     const int32_t* slot_count;      // one an instance; 0: material 0
     const Material* materials;
-    const float* energy;  // tables of the materials
-    bool see_through;     // some material lets rays straight through
+    const float* energy;             // tables of the materials
+    bool see_through;                // some material lets rays straight through
+    bool nested;                     // some material's inside has a priority
+    const int32_t* boundary_energy;  // tables of boundaries by [whose surface: 0 here, 1 there]
+                                     // [medium here][medium there], -1: none
+    int32_t media_count;             // medium 0 is all without priorities
     TextureSet textures;
     const TextureMesh* texture_meshes;  // one a mesh
     const float* randoms;               // one an instance, or null

@@ -30,21 +30,43 @@ TRG_FN void look_beyond(const World& world, TimedRay* timed, Hit* hit) {
     if (ray->t_max > ray->t_min) intersect_closest(world, ray, hit, 1, &timed->time);
 }
 
-/// Brings the path in `slot` to the first surface that stops it, by chance where that is partly
-/// there.
+/// A slot of the queue and the number of the surface that its path meets.
+struct SlotAt {
+    int32_t slot, depth;
+};
+
+/// Brings the path at `at` to the first surface that stops it, by chance where that is partly
+/// there; `*sheet` counts the surfaces passed.
 template <uint32_t F>
-TRG_FN void pass_sheets(const SceneView& scene, PathQueues& queues, int32_t slot, int32_t depth) {
+TRG_FN void pass_sheets(const SceneView& scene, PathQueues& queues, const SlotAt& at,
+                        uint32_t* sheet) {
+    const int32_t slot = at.slot;
     Hit& hit = queues.hits[slot];
     PathState& state = queues.states[slot];
     TimedRay ray{queues.rays[slot], path_time(scene, queues, state.path)};
-    const uint32_t first = kFirstSheetDimension + static_cast<uint32_t>(depth) * kMostSheets;
-    for (uint32_t sheet = 0; sheet < kMostSheets && hit.triangle >= 0; ++sheet) {
+    const uint32_t first = kFirstSheetDimension + static_cast<uint32_t>(at.depth) * kMostSheets;
+    for (; *sheet < kMostSheets && hit.triangle >= 0; ++*sheet) {
         float alpha;
         const Material* m = thin_material<F>(scene, ray, hit, &alpha);
-        if (!m || sample_uniform2(queues.keys[state.path], first + sheet).u < alpha) return;
+        if (!m || sample_uniform2(queues.keys[state.path], first + *sheet).u < alpha) return;
         state.throughput = state.throughput * m->through;
         look_beyond(*scene.world, &ray, &hit);
         queues.rays[slot] = ray.ray;
+    }
+}
+
+/// Likewise, but over boundaries of media that give way to others, too.
+template <uint32_t F>
+TRG_FN void pass_boundaries(const SceneView& scene, PathQueues& queues, int32_t slot,
+                            int32_t depth) {
+    const int32_t path = queues.states[slot].path;
+    uint32_t sheet = 0;
+    for (int32_t k = 0; k < kMostSheets; ++k) {
+        if (scene.see_through) pass_sheets<F>(scene, queues, {slot, depth}, &sheet);
+        const TimedRay ray{queues.rays[slot], path_time(scene, queues, path)};
+        if (!pass_boundary<F>(scene, ray,
+                              {&queues.hits[slot], &queues.media[path], &queues.boundaries[path]}))
+            return;
     }
 }
 
@@ -56,6 +78,12 @@ TRG_FN bool dim_shadow(const SceneView& scene, PathQueues& queues, int32_t numbe
     Hit hit = no_hit();
     intersect_closest(*scene.world, &ray.ray, &hit, 1, &ray.time);
     for (int32_t sheet = 0; sheet < kMostSheets && hit.triangle >= 0; ++sheet) {
+        if constexpr (has(F, kMedia)) {
+            Boundary boundary;
+            if (scene.nested &&
+                pass_boundary<F>(scene, ray, {&hit, &queues.shadow_media[number], &boundary}))
+                continue;
+        }
         float alpha;
         const Material* m = thin_material<F>(scene, ray, hit, &alpha);
         if (!m) return true;

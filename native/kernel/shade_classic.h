@@ -49,6 +49,40 @@ TRG_FN bool face_vertex(const SceneView& scene, ClassicVertex* v) {
     return outside;
 }
 
+/// Share of light that is left after `way` through `media`.
+TRG_FN float left_in(const SceneView& scene, const MediaStack& media, float way) {
+    const int32_t ruler = ruling_medium(scene, media);
+    return ruler < 0 ? 1.0f : share_left(scene.classic[ruler].decay, way);
+}
+
+/// Brings `*hit` to the first surface that is there, `*media` to what is in front of it.
+template <uint32_t F>
+TRG_FN Boundary find_boundary(const SceneView& scene, const Ray& ray, Hit* hit, MediaStack* media) {
+    Boundary boundary;
+    boundary.ratio = boundary.slack = 0.0f;
+    if (!scene.nested) return boundary;
+    for (int32_t k = 0; k < kMostCrossings; ++k)
+        if (!pass_boundary<F>(scene, {ray, kMiddleTime}, {hit, media, &boundary})) break;
+    return boundary;
+}
+
+/// What lies on both sides of the surface of `v`, before which `v->media` are as far as is known.
+TRG_FN void find_sides(const SceneView& scene, const Boundary& boundary, bool outside,
+                       ClassicVertex* v) {
+    if (boundary.ratio > 0.0f) {
+        v->beyond = boundary.beyond;
+        v->ratio = boundary.ratio;
+        v->surface.error = larger(v->surface.error, boundary.slack);
+        return;
+    }
+    const int32_t material = v->surface.material;
+    if (!outside) find_beginning(scene, material, &v->media);
+    v->beyond = v->media;
+    cross_surface(scene, material, outside, &v->beyond);
+    v->ratio = index_of(scene, ruling_medium(scene, v->beyond)) /
+               index_of(scene, ruling_medium(scene, v->media));
+}
+
 /// Queues `next` unless it weighs too little or lies too deep.
 TRG_FN void push_ray(ClassicStage& stage, const PendingRay& next) {
     const bool kept = max_component(next.weight) >= kClassicCut &&
@@ -84,22 +118,21 @@ TRG_FN void send_ray(ClassicStage& stage, const PendingRay& from, const ClassicV
 }
 
 /// The paper's two rays. Where a smooth normal would send one to the wrong side, the flat one does.
-TRG_FN void send_on(ClassicStage& stage, const PendingRay& from, const ClassicVertex& v,
-                    bool outside) {
+TRG_FN void send_on(ClassicStage& stage, const PendingRay& from, const ClassicVertex& v) {
     const ClassicMaterial& m = v.material;
     Vec3 mirrored = mirror_about(v.wo, v.ns);
     if (!(dot(mirrored, v.ng) > 0.0f)) mirrored = mirror_about(v.wo, v.ng);
     PendingRay next{};
     next.weight = v.weight * m.reflect;
-    next.decay = from.decay;
+    next.media = v.media;
     if (!is_black(next.weight)) send_ray(stage, from, v, mirrored, next);
     next.weight = v.weight * m.refract;
     if (is_black(next.weight)) return;
-    const float ratio = outside ? 1.0f / m.ior : m.ior;
+    const float ratio = 1.0f / v.ratio;
     Vec3 wi;
     bool passes = refract_about(v.wo, v.ns, ratio, &wi);
     if (passes && !(dot(wi, v.ng) < 0.0f)) passes = refract_about(v.wo, v.ng, ratio, &wi);
-    if (passes) next.decay = outside ? m.decay : 0.0f;
+    if (passes) next.media = v.beyond;
     send_ray(stage, from, v, passes ? wi : mirrored, next);
 }
 
@@ -112,18 +145,23 @@ template <uint32_t F>
 TRG_FN void meet_surface(ClassicStage& stage, int32_t slot) {
     const SceneView& scene = stage.view.scene;
     const PendingRay from = stage.classic.batch[slot];
-    const Hit& hit = stage.queues.hits[slot];
+    Hit hit = stage.queues.hits[slot];
+    MediaStack media = from.media;
+    const Boundary boundary = find_boundary<F>(scene, from.ray, &hit, &media);
     if (hit.triangle < 0) {
+        const Vec3 weight = from.weight * left_in(scene, media, kFar);
         add_light(stage.queues, from.path,
-                  from.weight * world_seen<F>(scene, from.ray.direction, 0.0f, from.depth));
+                  weight * world_seen<F>(scene, from.ray.direction, 0.0f, from.depth));
         return;
     }
     ClassicVertex& v = stage.classic.vertices[stage.vertices++];
     v.surface = surface_of_hit<F>(scene, {from.ray, kMiddleTime}, hit);
     v.wo = -normalize(from.ray.direction);
     v.path = from.path;
-    v.weight = from.decay > 0.0f ? from.weight * std::exp(-from.decay * hit.t) : from.weight;
+    v.media = media;
     const bool outside = face_vertex<F>(scene, &v);
+    find_sides(scene, boundary, outside, &v);
+    v.weight = from.weight * left_in(scene, v.media, hit.t);
     if (from.depth == 0) {
         stage.queues.results[v.path].hit = true;
         stage.queues.results[v.path].normal = v.ns;
@@ -131,7 +169,7 @@ TRG_FN void meet_surface(ClassicStage& stage, int32_t slot) {
     add_light(
         stage.queues, v.path,
         v.weight * (eval_emission<F>(scene, v.surface, v.wo) + v.material.ambient * scene.ambient));
-    send_on(stage, from, v, outside);
+    send_on(stage, from, v);
 }
 
 /// What `v` sends to its viewer of light with irradiance `sample.light`: Phong's model about the
@@ -156,20 +194,26 @@ TRG_FN int32_t ask_light(ClassicStage& stage, const Light& light) {
         const float t_max = sample.distance < kFar ? sample.distance * 0.999998f : kFar;
         stage.queues.shadow_rays[count] = {ray_origin(v.surface, v.ng, sample.wi), 0.0f, sample.wi,
                                            t_max};
-        stage.classic.shadows[count++] = {sent, 0.0f, v.path};
+        stage.classic.shadows[count++] = {sent, v.media, v.path};
     }
     return count;
 }
 
 /// Light `shadow` where its ray has met a surface: tinted, and the ray goes on behind; or stopped.
 template <uint32_t F>
-TRG_FN bool pass_through(const SceneView& scene, const Hit& hit, Ray* ray, ClassicShadow* shadow) {
-    const Surface s = surface_of_hit<F>(scene, {*ray, kMiddleTime}, hit);
+TRG_FN bool pass_through(const SceneView& scene, const Hit& hit, Ray* ray, ClassicShadow* shadow,
+                         const Boundary& boundary) {
+    Surface s = surface_of_hit<F>(scene, {*ray, kMiddleTime}, hit);
     const ClassicMaterial& m = scene.classic[s.material];
-    if (shadow->decay > 0.0f) shadow->light = shadow->light * std::exp(-shadow->decay * hit.t);
-    shadow->light = shadow->light * m.refract;
     const bool entering = dot(s.outside, ray->direction) < 0.0f;
-    shadow->decay = entering ? m.decay : 0.0f;
+    if (!entering) find_beginning(scene, s.material, &shadow->media);
+    shadow->light = shadow->light * m.refract * left_in(scene, shadow->media, hit.t);
+    if (boundary.ratio > 0.0f) {
+        shadow->media = boundary.beyond;
+        s.error = larger(s.error, boundary.slack);
+    } else {
+        cross_surface(scene, s.material, entering, &shadow->media);
+    }
     ray->origin = leave_surface(s, entering ? -s.outside : s.outside);
     if (ray->t_max < kFar) ray->t_max -= hit.t;
     return !is_black(shadow->light) && ray->t_max > 0.0f;
@@ -187,9 +231,12 @@ TRG_FN void add_tinted_light(ClassicStage& stage, int32_t count) {
         for (int32_t k = 0; k < count; ++k) {
             Ray ray = queues.shadow_rays[k];
             ClassicShadow shadow = stage.classic.shadows[k];
-            if (queues.hits[k].triangle < 0) {
-                add_light(queues, shadow.path, shadow.light);
-            } else if (pass_through<F>(scene, queues.hits[k], &ray, &shadow)) {
+            Hit hit = queues.hits[k];
+            const Boundary boundary = find_boundary<F>(scene, ray, &hit, &shadow.media);
+            if (hit.triangle < 0) {
+                add_light(queues, shadow.path,
+                          shadow.light * left_in(scene, shadow.media, ray.t_max));
+            } else if (pass_through<F>(scene, hit, &ray, &shadow, boundary)) {
                 queues.shadow_rays[left] = ray;
                 stage.classic.shadows[left++] = shadow;
             }

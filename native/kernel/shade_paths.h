@@ -2,6 +2,7 @@
 /// light and goes on.
 #pragma once
 
+#include "kernel/nested_media.h"
 #include "kernel/pass_values.h"
 
 namespace trg {
@@ -172,7 +173,20 @@ TRG_FN bool make_vertex(const SceneView& scene, Vec3 wo, Vertex* v, Vec3* normal
     v->frame = make_frame(*normal);
     const View view{to_local(v->frame, wo), to_local(v->frame, v->ng), facing >= 0.0f,
                     scene.energy};
-    return make_bsdf<lobes_of(F)>(material_at<F>(&look, row), view, &v->bsdf);
+    Material m = material_at<F>(&look, row);
+    if constexpr (has(F, kMedia))
+        if (v->boundary) face_medium(*v->boundary, view.outside, row == s.material, &m);
+    return make_bsdf<lobes_of(F)>(m, view, &v->bsdf);
+}
+
+/// The path goes through the surface.
+TRG_FN void enter_beyond(ShadeStage& stage, const Vertex& v) {
+    MediaStack& media = stage.queues.media[v.path];
+    if (v.media[1])
+        media = *v.media[1];
+    else
+        cross_surface(stage.view.scene, v.surface.material, dot(v.ng, v.surface.outside) > 0.0f,
+                      &media);
 }
 
 /// Draws the next direction and keeps the path if it survives roulette.
@@ -193,9 +207,7 @@ TRG_FN void continue_path(ShadeStage& stage, const Vertex& v) {
     if (is_black(throughput)) return;
     const Vec3 wi = normalize(to_world(v.frame, next.wi));
     if constexpr (has(F, kMedia))
-        if (dot(v.ng, wi) < 0.0f)
-            cross_surface(stage.view.scene, v.surface.material, dot(v.ng, v.surface.outside) > 0.0f,
-                          &stage.queues.media[v.path]);
+        if (dot(v.ng, wi) < 0.0f) enter_beyond(stage, v);
     const int32_t slot = stage.next_count++;
     stage.queues.rays[slot] = {ray_origin(v.surface, v.ng, wi), 0.0f, wi, kFar};
     stage.queues.states[slot] = {throughput, next.pdf, v.path};
@@ -239,8 +251,18 @@ TRG_FN void find_media(const ShadeStage& stage, const Ray& ray, Vertex* v) {
     if (!outside) find_beginning(scene, v->surface.material, &media);
     v->absorption[0] = absorption_of(scene, media);
     MediaStack beyond = media;
-    cross_surface(scene, v->surface.material, outside, &beyond);
+    if (scene.nested && stage.queues.boundaries[v->path].ratio > 0.0f) {
+        v->boundary = &stage.queues.boundaries[v->path];
+        beyond = v->boundary->beyond;
+        v->surface.error = larger(v->surface.error, v->boundary->slack);
+    } else {
+        cross_surface(scene, v->surface.material, outside, &beyond);
+    }
     v->absorption[1] = absorption_of(scene, beyond);
+    if (!scene.nested) return;
+    stage.queues.boundaries[v->path].beyond = beyond;
+    v->media[0] = &media;
+    v->media[1] = &stage.queues.boundaries[v->path].beyond;
 }
 
 /// One path at the end of its ray. Slots are written at or before the one being read.
@@ -255,6 +277,8 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
     Vertex v;
     v.path = state.path;
     v.throughput = state.throughput;
+    v.media[0] = v.media[1] = nullptr;
+    v.boundary = nullptr;
     const bool met = hit.triangle >= 0;
     if (met)
         v.surface =

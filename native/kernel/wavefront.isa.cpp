@@ -37,14 +37,21 @@ template <uint32_t F>
 void trace_paths(const SceneView& scene, PathQueues& queues, int32_t living, int32_t depth) {
     intersect_closest(*scene.world, queues.rays, queues.hits, living,
                       ray_times(scene, queues, queues.states, living));
+    if constexpr (has(F, kMedia)) {
+        for (int32_t slot = 0; scene.nested && slot < living; ++slot)
+            pass_boundaries<F>(scene, queues, slot, depth);
+        if (scene.nested) return;
+    }
     if constexpr (has(F, kSeeThrough))
-        for (int32_t slot = 0; scene.see_through && slot < living; ++slot)
-            pass_sheets<F>(scene, queues, slot, depth);
+        for (int32_t slot = 0; scene.see_through && slot < living; ++slot) {
+            uint32_t sheet = 0;
+            pass_sheets<F>(scene, queues, {slot, depth}, &sheet);
+        }
 }
 template <uint32_t F>
 void trace_shadows(const SceneView& scene, PathQueues& queues, int32_t count) {
     if constexpr (has(F, kSeeThrough)) {
-        if (scene.see_through) {
+        if (scene.see_through || scene.nested) {
             for (int32_t i = 0; i < count; ++i)
                 queues.hidden[i] = dim_shadow<F>(scene, queues, i) ? 1 : 0;
             return;
@@ -92,6 +99,8 @@ bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues
                   const std::atomic<bool>& cancelled, RayCounts* counts) {
     int32_t living = generate_paths(view, chunk, queues);
     counts->camera += living;
+    if constexpr (has(F, kMedia))
+        if (view.scene.nested) begin_media<F>(view.scene, queues, living);
     if constexpr (has(F, kPasses)) clear_passes(view.passes, queues.passes, living);
     for (int32_t depth = 0; living > 0; ++depth) {
         if (cancelled.load(std::memory_order_relaxed)) return false;
@@ -101,7 +110,8 @@ bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues
             return true;
         }
         trace_paths<F>(view.scene, queues, living, depth);
-        ShadeStage stage{view, queues, depth, {queues.shadow_rays, queues.shadows, 0}, 0};
+        ShadeStage stage{
+            view, queues, depth, {queues.shadow_rays, queues.shadows, 0, queues.shadow_media}, 0};
         shade_all<F>(stage, living);
         if (stage.shadows.count > 0) {
             counts->shadow += stage.shadows.count;

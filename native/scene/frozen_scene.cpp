@@ -58,6 +58,9 @@ FrozenScene::FrozenScene(const Scene& scene) {
     view_classic(scene.tables);
     features_ = find_features(scene);
     view_.see_through = (features_ & kSeeThrough) != 0;
+    view_.nested = scene.tables.media_count > 1;
+    view_.boundary_energy = scene.tables.boundary_energy.data();
+    view_.media_count = scene.tables.media_count;
     const PassTables& p = scene.passes;
     passes_ = {{},
                data_or_null(p.instance_ids),
@@ -144,7 +147,7 @@ uint32_t FrozenScene::find_features(const Scene& scene) const {
             features |= kTextures;
         if (m.transmission > 0.0f || m.translucent) features |= kTransmission;
         if (m.mix_count > 0) features |= kMixtures;
-        if (!is_black(m.absorption)) features |= kMedia;
+        if (!is_black(m.absorption) || m.priority > 0.0f) features |= kMedia;
         if (m.coat > 0.0f || max_component(m.sheen) > 0.0f || m.diffuse_roughness > 0.0f)
             features |= kLayers;
         if (m.alpha < 1.0f || m.alpha_texture >= 0) features |= kSeeThrough;

@@ -2,6 +2,7 @@
 
 #include "shade/energy.h"
 #include "shade/fresnel.h"
+#include "shade/ggx.h"
 
 namespace trg {
 
@@ -52,6 +53,36 @@ void prepare_material(Material* m, EnergyTables* energy) {
         e.coat_facets = energy->add(EnergyKind::facets, 1.0f, coat_roughness);
         e.coat = energy->add(EnergyKind::gloss, m->coat_ior, coat_roughness);
     }
+}
+
+int32_t number_media(std::vector<Material>* materials) {
+    int32_t count = 1;
+    for (Material& m : *materials) m.medium = m.priority > 0.0f ? count++ : 0;
+    return count;
+}
+
+std::vector<int32_t> prepare_boundaries(const std::vector<Material>& materials,
+                                        EnergyTables* energy) {
+    std::vector<const Material*> media{nullptr};
+    for (const Material& m : materials)
+        if (m.medium > 0) media.push_back(&m);
+    std::vector<int32_t> tables;
+    const auto index = [](const Material* m) { return m ? m->ior : 1.0f; };
+    const auto rank = [](const Material* m) { return m ? m->priority : 0.0f; };
+    const auto add = [&](const Material* here, const Material* there, bool enters) {
+        const Material* owner = enters ? there : here;
+        const bool needed = owner && rank(owner) >= rank(enters ? here : there) &&
+                            owner->transmission > 0.0f && index(here) != index(there);
+        if (!needed) return -1;
+        const bool varies = owner->roughness_texture >= 0;
+        if (!varies && owner->roughness * owner->roughness < kSmoothAlpha) return -1;
+        return energy->add(EnergyKind::glass, index(there) / index(here),
+                           varies ? -1.0f : owner->roughness);
+    };
+    for (const bool enters : {false, true})
+        for (const Material* here : media)
+            for (const Material* there : media) tables.push_back(add(here, there, enters));
+    return tables;
 }
 
 }  // namespace trg

@@ -50,7 +50,8 @@ const std::vector<const char*> kMaterialFields = {"base_r",
                                                   "weight_texture",
                                                   "absorption_r",
                                                   "absorption_g",
-                                                  "absorption_b"};
+                                                  "absorption_b",
+                                                  "priority"};
 
 namespace {
 
@@ -97,6 +98,7 @@ Material read_material(TableRow row, int64_t material_count, int64_t texture_cou
     m.weight = row.next(0.0f, 3.0e38f);
     m.weight_texture = row.next_index(-1, texture_count);
     m.absorption = next_color(row);
+    m.priority = row.next(0.0f, 1e6f);
     if (m.mix_count > 0 && (m.mix_first < 0 || m.mix_first + m.mix_count > material_count))
         throw TableError("materials: a mixture of rows that are not there");
     return m;
@@ -113,6 +115,8 @@ void set_materials(ShadingTables& tables, const Table& table) {
                                           static_cast<int64_t>(tables.textures.textures.size())));
         prepare_material(&materials.back(), &energy);
     }
+    tables.media_count = number_media(&materials);
+    tables.boundary_energy = prepare_boundaries(materials, &energy);
     tables.materials.swap(materials);
     tables.energy = std::move(energy);
 }

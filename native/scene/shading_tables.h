@@ -25,6 +25,8 @@ struct ShadingTables {
     TextureTables textures;
     std::vector<Material> materials;
     EnergyTables energy;                   // of the materials
+    int32_t media_count = 1;               // materials with priorities, and 0 for all others
+    std::vector<int32_t> boundary_energy;  // as SceneView has it
     std::vector<ClassicMaterial> classic;  // one a material, for the classic integrator
     Vec3 ambient{0.0f, 0.0f, 0.0f};
     bool is_classic = false;

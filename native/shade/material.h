@@ -54,6 +54,8 @@ struct Material {
     float weight;                  // as part of a mixture
     int32_t weight_texture;
     Vec3 absorption;  // per unit of length, of what the surface encloses
+    float priority;   // of what it encloses, over other media; 0: none
+    int32_t medium;   // number among those with priorities, from 1 on
     EnergyIndex energy;
 };
 

@@ -154,6 +154,19 @@ def _nested_media() -> SceneArrays:
     return scene
 
 
+def _priorities() -> SceneArrays:
+    """Rough glass, water that absorbs and ice that overlap, by priorities."""
+    rough = Material(1, 1, 1, transmission=1.0, roughness=0.25, ior=1.5, priority=2.0)
+    water = Material(0.9, 1, 1, transmission=1.0, roughness=0.0, ior=1.33, priority=1.0, absorption_r=1.0)
+    ice = replace(rough, roughness=0.1, ior=1.2)
+    lamp = light("point", (0.3, 0.3, 0.3), (-0.3, 0.3, 0.9), radius=0.15)
+    scene = studio(rough, lamp, world=(0.7, 0.8, 0.9))
+    scene.materials += [water, ice]
+    scene.instances += [place(1, 2, (-0.3, 0.3, 0.5)), place(1, 3, (0.3, -0.3, 0.6))]
+    scene.instances[-1].transforms[..., :3] *= 0.6
+    return scene
+
+
 def _textured() -> SceneArrays:
     scene = studio(
         Material(
@@ -360,6 +373,7 @@ def _environment_and_lights() -> SceneArrays:
 GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "mixed": _mixed,
     "nested_media": _nested_media,
+    "priorities": _priorities,
     "textured": _textured,
     "shapes": _shapes,
     "mirrored_and_squashed": _mirrored_and_squashed,

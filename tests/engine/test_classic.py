@@ -12,7 +12,7 @@ from trg_blender.engine.devices import find_device
 from trg_blender.engine.scene_arrays import ImageArrays, Material, SceneArrays, Texture
 from trg_blender.engine.session import SceneError, render
 
-from .arrays import ball, light, look_at, place, quad
+from .arrays import ball, box, light, look_at, place, quad
 from .classic_scenes import BLACK, SETTINGS, layers, studio
 
 pytest.importorskip("trg_native", reason="the native core is not built here")
@@ -193,3 +193,57 @@ def test_bad_rows_are_refused_by_name():
     scene = layers([ClassicMaterial(power=-1.0)])
     with pytest.raises(SceneError, match="row 0 has power"):
         render(scene, SETTINGS)
+
+
+def slab_view(rows: list[ClassicMaterial], materials: list[Material]) -> SceneArrays:
+    """Straight down through closed boxes of `rows` about the z axis, each within the one before, at a floor
+    of radiance 1."""
+    floor = Material(emission_r=1.0, emission_g=1.0, emission_b=1.0)
+    return SceneArrays(
+        look_at((0.0, 0.0, 8.0), (0, 0, 0), 1e-6),
+        [quad(50.0), box(1.0)],
+        [place(0, 0, (0, 0, -5))]
+        + [place(1, k + 1, linear=np.eye(3) * 0.5**k) for k in range(len(rows))],
+        [floor, *materials],
+        classic=[classic_row(diffuse=BLACK), *rows],
+    )
+
+
+@needs_embree
+@pytest.mark.parametrize("device", ["cpu", "embree"])
+def test_the_innermost_medium_absorbs_and_the_outer_one_again_behind_it(device: str):
+    """A box of half side 1 around one of half side 1/2: 1 of the way outside of the inner, 1 in it."""
+    outer, inner = (
+        classic_row(diffuse=BLACK, refract=(1.0, 1.0, 1.0), ior=ior, decay=decay)
+        for ior, decay in ((1.3, 0.2), (1.6, 0.7))
+    )
+    scene = slab_view([outer, inner], [Material(), Material()])
+    assert color(scene, device=device) == pytest.approx(np.exp(-0.2 - 0.7), rel=1e-5)
+
+
+@needs_embree
+@pytest.mark.parametrize("device", ["cpu", "embree"])
+def test_a_medium_of_higher_priority_hides_what_lies_in_it(device: str):
+    outer, inner = (
+        classic_row(diffuse=BLACK, refract=(1.0, 0.5, 0.5), decay=decay) for decay in (0.2, 0.7)
+    )
+    scene = slab_view([outer, inner], [Material(priority=2.0), Material(priority=1.0)])
+    expected = np.exp(-0.4) * np.array([1.0, 0.25, 0.25])
+    assert color(scene, device=device) == pytest.approx(expected, rel=1e-5)
+
+
+@needs_embree
+def test_rays_bend_by_the_ratio_of_the_media_they_go_between():
+    """Balls within balls, of indices and decays of their own."""
+    rows = [
+        classic_row(diffuse=(0.1,) * 3, refract=(0.9, 0.8, 0.9), reflect=(0.1,) * 3, ior=ior, decay=decay)
+        for ior, decay in ((1.5, 0.1), (1.2, 0.4), (1.33, 0.2))
+    ]
+    scene = slab_view(rows, [Material() for _ in rows])
+    scene.meshes[1] = ball(1.0, 24)
+    scene.camera = look_at((2.0, -3.0, 2.0), (0, 0, 0), 0.3)
+    scene.lights = [light("sun", (2, 2, 2), direction=(0.5, -0.3, 1))]
+    settings = replace(SETTINGS, width=24, height=24, max_bounces=9)
+    native, reference = (render(scene, replace(settings, device=name)) for name in ("cpu", "embree"))
+    off = np.abs(native.pixels - reference.pixels).max(axis=-1)
+    assert (off > 1e-3).mean() < 0.02

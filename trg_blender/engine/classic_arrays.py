@@ -39,7 +39,7 @@ class ClassicMaterial:
     refract_b: float = 0.0
     """share of the ray that passes one surface, 0 to 1; tints shadows too"""
     ior: float = 1.0
-    """index of the inside over that of the outside, by Snell's law"""
+    """index of the inside"""
     decay: float = 0.0
     """light falls by exp(-decay t) inside"""
     texture_share: float = 1.0
@@ -84,6 +84,7 @@ def derive_classic(material: Material) -> ClassicMaterial:
         reflect=triple(sharp * there * shine),
         refract=triple(np.clip(passes, 0.0, 1.0)),
         ior=material.ior if there >= 1.0 and glass > 0.0 else 1.0,
+        decay=(material.absorption_r + material.absorption_g + material.absorption_b) / 3.0,
         texture_share=opaque * there,
     )
 

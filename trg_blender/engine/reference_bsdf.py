@@ -103,8 +103,10 @@ def build_bsdf(surface: Surface) -> Bsdf:
     wo = frame.to_local(surface.wo)
     cosine = wo[:, 2]
     eta = np.where(surface.outside, material.ior, 1.0 / material.ior)
+    if surface.ratio is not None:
+        eta = np.where(surface.ratio > 0.0, surface.ratio, eta)
     ideal = material.alpha < IDEAL_ALPHA
-    straight = ideal | (np.abs(material.ior - 1.0) < SAME_INDEX)
+    straight = ideal | (np.abs(eta - 1.0) < SAME_INDEX)
     # From the top down, each layer dims those below it.
     sheen = build_sheen(wo, material.column["sheen_roughness"])
     sheen_weight = material.color("sheen") * sheen.albedo[:, None]

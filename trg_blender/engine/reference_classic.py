@@ -23,8 +23,17 @@ from .reference_lights import (
     spread_share,
 )
 from .reference_math import dot
-from .reference_media import no_media
-from .reference_path import Estimate, Paths, World, collect_world, keep
+from .reference_media import (
+    Stack,
+    absorption_of,
+    cross_surface,
+    find_beginnings,
+    light_left,
+    no_media,
+    ruling_media,
+)
+from .reference_nested import face_boundaries, media_around, meet_boundaries, no_boundaries
+from .reference_path import ORTHOGRAPHIC, Estimate, Paths, World, collect_world, keep
 from .reference_scene import FAR, MISS, Hits, Rays
 from .reference_surface import Surface, build_surface
 from .scene_arrays import LIGHT_KINDS, Float64, Light
@@ -40,8 +49,6 @@ class Pending:
 
     paths: Paths
     """throughput is the weight"""
-    decay: Float64
-    """(n,) of the medium that each is in"""
     depth: int
 
 
@@ -56,8 +63,6 @@ class Row:
     refract: Float64
     """(n, 3) each"""
     power: Float64
-    ior: Float64
-    decay: Float64
 
 
 def trace_classic(world: World, camera: CameraRays, max_bounces: int) -> Estimate:
@@ -65,12 +70,55 @@ def trace_classic(world: World, camera: CameraRays, max_bounces: int) -> Estimat
     count = len(camera.near)
     estimate = Estimate(np.zeros((count, 3)), np.zeros(count, dtype=bool), np.zeros((count, 3)))
     table = pack_classic(world.scene).astype(np.float64)
+    world = with_classic_media(world, table)
     start = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count), no_media(count))
-    queue = [Pending(start, np.zeros(count), 0)]
+    if world.nested is not None and world.scene.camera.kind != ORTHOGRAPHIC:
+        start.media[:] = media_around(world.nested, world.scene.camera.matrix[:, 3])
+    queue = [Pending(start, 0)]
     estimate.rays.camera = count
     while queue:
         queue += meet(world, table, queue.pop(0), max_bounces, estimate)
     return estimate
+
+
+def with_classic_media(world: World, table: Float64) -> World:
+    """`world` with the classic rows' media: whatever lets light pass counts, the innermost rules unless one
+    has a priority."""
+    column = {name: table[:, k] for k, name in enumerate(CLASSIC_FIELDS)}
+    passes = np.max([column[f"refract_{channel}"] for channel in "rgb"], axis=0) > 0.0
+    columns = dict(world.materials.columns)
+    for channel in "rgb":
+        columns[f"absorption_{channel}"] = np.where(passes, column["decay"], 0.0)
+    columns["ior"] = column["ior"]
+    columns["priority"] = np.where(passes, np.maximum(columns["priority"], 1e-30), 0.0)
+    materials = replace(world.materials, columns=columns)
+    nested = None if world.nested is None else replace(world.nested, table=materials)
+    return replace(world, materials=materials, nested=nested)
+
+
+def find_there(
+    world: World, rays: Rays, hits: Hits, media: Stack
+) -> tuple[Hits, Stack, Surface, NDArray[np.bool_]]:
+    """Of rays in `media`: the hits on surfaces that are there, what is before them, and the surfaces of
+    those rays (last of what is returned) that meet one, with what lies behind in `behind`."""
+    boundary = no_boundaries(len(hits.t))
+    for _ in range(MOST_CROSSINGS if world.nested is not None else 0):
+        assert world.nested is not None
+        hits, media, passed = meet_boundaries(world.nested, (rays, media), hits, boundary)
+        if not passed.any():
+            break
+    met = hits.triangle != MISS
+    found = Hits(hits.triangle[met], hits.t[met], hits.u[met], hits.v[met])
+    surface = build_surface(world.materials, found, -rays.direction[met])
+    surface = face_boundaries(surface, boundary, met)
+    assert surface.ratio is not None and surface.behind is not None
+    media = media.copy()
+    media[met] = find_beginnings(world.materials, media[met], surface)
+    crossed = cross_surface(world.materials, media[met], surface.row, surface.outside)
+    behind = np.where((surface.ratio > 0.0)[:, None], surface.behind, crossed)
+    index = np.append(world.materials.columns["ior"], 1.0)
+    here, there = (ruling_media(world.materials, stack) for stack in (media[met], behind))
+    return hits, media, replace(surface, behind=behind, ratio=index[there] / index[here]), met
 
 
 def meet(world: World, table: Float64, pending: Pending, deepest: int, estimate: Estimate) -> list[Pending]:
@@ -79,15 +127,15 @@ def meet(world: World, table: Float64, pending: Pending, deepest: int, estimate:
     hits = world.traced.intersect(paths.rays)
     if pending.depth > 0:
         estimate.rays.bounce += len(paths.index)
+    hits, media, surface, met = find_there(world, paths.rays, hits, paths.media)
+    left = light_left(absorption_of(world.materials, media), hits.t)
+    paths = replace(paths, media=media, throughput=paths.throughput * left)
     collect_world(world, paths, hits, estimate, pending.depth)
-    met = hits.triangle != MISS
-    decay = pending.decay[met]
     paths, hits = keep(paths, hits, met)
     if len(paths.index) == 0:
         return []
-    surface = build_surface(world.materials, hits, -paths.rays.direction)
     row = row_at(world, table, hits, surface)
-    weight = paths.throughput * np.exp(-decay * hits.t)[:, None]
+    weight = paths.throughput
     if pending.depth == 0:
         estimate.hit[paths.index] = True
         estimate.normal[paths.index] = surface.ns
@@ -98,7 +146,7 @@ def meet(world: World, table: Float64, pending: Pending, deepest: int, estimate:
         add_tinted(world, table, light_rays(lit, surface, row, light), estimate)
     if pending.depth == deepest:
         return []
-    return send_on(lit, surface, row, decay, pending.depth + 1)
+    return send_on(lit, surface, row, pending.depth + 1)
 
 
 def row_at(world: World, table: Float64, hits: Hits, surface: Surface) -> Row:
@@ -119,8 +167,6 @@ def row_at(world: World, table: Float64, hits: Hits, surface: Surface) -> Row:
         color("reflect"),
         color("refract"),
         column["power"],
-        column["ior"],
-        column["decay"],
     )
 
 
@@ -136,36 +182,40 @@ def refract(wo: Float64, n: Float64, ratio: Float64) -> tuple[Float64, NDArray[n
     return along[:, None] * n - ratio[:, None] * wo, square >= 0.0
 
 
-def send_on(paths: Paths, surface: Surface, row: Row, decay: Float64, depth: int) -> list[Pending]:
+def send_on(paths: Paths, surface: Surface, row: Row, depth: int) -> list[Pending]:
     """The mirrored and the refracted rays that weigh enough."""
     mirrored = mirror(surface.wo, surface.ns)
     flat = dot(mirrored, surface.ng) <= 0.0
     mirrored = np.where(flat[:, None], mirror(surface.wo, surface.ng), mirrored)
-    ratio = np.where(surface.outside, 1.0 / row.ior, row.ior)
+    assert surface.ratio is not None and surface.behind is not None
+    ratio = 1.0 / surface.ratio
     through, passes = refract(surface.wo, surface.ns, ratio)
     by_flat, passes_flat = refract(surface.wo, surface.ng, ratio)
     wrong = passes & (dot(through, surface.ng) >= 0.0)
     through = np.where(wrong[:, None], by_flat, through)
     passes = np.where(wrong, passes_flat, passes)
-    inside = np.where(surface.outside, row.decay, 0.0)
     through = np.where(passes[:, None], through, mirrored)
     return [
         sent
         for branch in (
-            Branch(paths.throughput * row.reflect, mirrored, decay),
-            Branch(paths.throughput * row.refract, through, np.where(passes, inside, decay)),
+            Branch(paths.throughput * row.reflect, mirrored, paths.media),
+            Branch(
+                paths.throughput * row.refract,
+                through,
+                np.where(passes[:, None], surface.behind, paths.media),
+            ),
         )
-        if len((sent := send(paths, surface, branch, depth)).decay)
+        if len((sent := send(paths, surface, branch, depth)).paths.index)
     ]
 
 
 @dataclass(frozen=True, slots=True)
 class Branch:
-    """Weights (n, 3), directions (n, 3) and media (n,) of rays that leave n points."""
+    """Weights (n, 3), directions (n, 3) and media of rays that leave n points."""
 
     weight: Float64
     wi: Float64
-    decay: Float64
+    media: Stack
 
 
 def send(paths: Paths, surface: Surface, branch: Branch, depth: int) -> Pending:
@@ -173,8 +223,8 @@ def send(paths: Paths, surface: Surface, branch: Branch, depth: int) -> Pending:
     rows = branch.weight.max(axis=1) >= CUT
     unit = (branch.wi / np.linalg.norm(branch.wi, axis=1, keepdims=True))[rows]
     rays = Rays(surface.leave(branch.wi)[rows], unit, np.full(len(unit), FAR))
-    on = Paths(rays, branch.weight[rows], paths.pdf[rows], paths.index[rows], paths.media[rows])
-    return Pending(on, branch.decay[rows], depth)
+    on = Paths(rays, branch.weight[rows], paths.pdf[rows], paths.index[rows], branch.media[rows])
+    return Pending(on, depth)
 
 
 def light_from_middle(light: Light, points: Float64) -> tuple[Float64, Float64, Float64]:
@@ -211,24 +261,22 @@ def light_rays(paths: Paths, surface: Surface, row: Row, light: Light) -> Paths:
 
 def add_tinted(world: World, table: Float64, paths: Paths, estimate: Estimate) -> None:
     """Follows light towards its lamp; every surface on the way takes its share."""
-    decay = np.zeros(len(paths.index))
     for _ in range(MOST_CROSSINGS):
         if len(paths.index) == 0:
             return
         estimate.rays.shadow += len(paths.index)
         hits = world.traced.intersect(paths.rays)
-        free = hits.triangle == MISS
-        np.add.at(estimate.radiance, paths.index[free], paths.throughput[free])
-        decay = decay[~free]
-        paths, hits = keep(paths, hits, ~free)
+        hits, media, surface, met = find_there(world, paths.rays, hits, paths.media)
+        way = np.where(met, hits.t, np.where(paths.rays.far < FAR, paths.rays.far, np.inf))
+        light = paths.throughput * light_left(absorption_of(world.materials, media), way)
+        np.add.at(estimate.radiance, paths.index[~met], light[~met])
+        paths, hits = keep(replace(paths, throughput=light, media=media), hits, met)
         if len(paths.index) == 0:
             return
-        surface = build_surface(world.materials, hits, -paths.rays.direction)
-        row = row_at(world, table, hits, surface)
-        light = paths.throughput * np.exp(-decay * hits.t)[:, None] * row.refract
-        decay = np.where(surface.outside, row.decay, 0.0)
+        light = paths.throughput * row_at(world, table, hits, surface).refract
         left = np.where(paths.rays.far < FAR, paths.rays.far - hits.t - surface.epsilon, FAR)
         rays = Rays(surface.leave(paths.rays.direction), paths.rays.direction, left)
+        assert surface.behind is not None
         on = np.any(light != 0.0, axis=1) & (left > 0.0)
-        paths, _unused = keep(replace(paths, rays=rays, throughput=light), hits, on)
-        decay = decay[on]
+        paths = replace(paths, rays=rays, throughput=light, media=surface.behind)
+        paths, _unused = keep(paths, hits, on)

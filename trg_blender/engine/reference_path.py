@@ -26,12 +26,24 @@ from .reference_media import (
     no_media,
     row_absorption,
 )
+from .reference_nested import (
+    Boundaries,
+    Nested,
+    build_nested,
+    face_boundaries,
+    media_around,
+    meet_boundaries,
+    no_boundaries,
+    put_hits,
+)
 from .reference_passes import PassNotes, make_notes, note_shadow, note_source, note_vertex, split_bsdf
 from .reference_scene import FAR, MISS, Hits, Rays, TracedScene, build_traced_scene
-from .reference_sheets import has_sheets, pass_sheets, transmittance
+from .reference_sheets import MOST_SHEETS, has_sheets, pass_sheets, pick, sheet_values, transmittance
+from .reference_sheets import beyond as sheet_beyond
 from .reference_surface import MaterialTable, Surface, build_material_table, build_surface
-from .scene_arrays import Float64, SceneArrays
+from .scene_arrays import CAMERA_KINDS, Float64, SceneArrays
 
+ORTHOGRAPHIC = CAMERA_KINDS.index("orthographic")
 ROULETTE_START = 3
 """Segments before Russian roulette begins."""
 
@@ -49,7 +61,9 @@ class World:
     sheets: bool = False
     """whether any material lets light straight through"""
     media: bool = False
-    """whether any surface encloses something that absorbs"""
+    """whether any surface encloses something that absorbs or has a priority"""
+    nested: Nested | None = None
+    """of the surfaces whose insides have priorities; None: there are none"""
 
 
 @dataclass(slots=True)
@@ -92,9 +106,10 @@ def build_world(scene: SceneArrays, width: int) -> World:
     materials = build_material_table(scene, traced.triangles, width)
     glow = build_glow(traced.triangles, materials)
     sky = None if scene.environment is None else build_sky(scene.environment)
-    media = bool(np.any(row_absorption(materials) > 0.0))
+    nested = build_nested(traced, materials)
+    media = nested is not None or bool(np.any(row_absorption(materials) > 0.0))
     color = np.asarray(scene.world, dtype=np.float64)
-    return World(scene, traced, materials, glow, color, sky, has_sheets(materials), media)
+    return World(scene, traced, materials, glow, color, sky, has_sheets(materials), media, nested)
 
 
 def trace_paths(
@@ -109,21 +124,29 @@ def trace_paths(
     estimate = Estimate(np.zeros((count, 3)), np.zeros(count, dtype=bool), np.zeros((count, 3)))
     estimate.notes = make_notes(count, passes, world.scene.pass_data)
     paths = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count), no_media(count))
+    if world.nested is not None and world.scene.camera.kind != ORTHOGRAPHIC:
+        paths.media[:] = media_around(world.nested, world.scene.camera.matrix[:, 3])
     for segment in range(max_bounces + 2):
         hits = world.traced.intersect(paths.rays)
         if world.sheets:
             hits, tint = pass_sheets(world.traced, world.materials, paths.rays, hits, rng)
             paths = replace(paths, throughput=paths.throughput * tint)
+        boundary = None
+        if world.nested is not None:
+            paths, hits, boundary = pass_boundaries(world, paths, hits, rng)
         if segment == 0:
             estimate.rays.camera += count
         else:
             estimate.rays.bounce += len(paths.index)
             collect_lights(world, paths, hits, estimate, segment)
         collect_world(world, outdoors(world, paths), hits, estimate, segment)
-        paths, hits = keep(paths, hits, hits.triangle != MISS)
+        met = hits.triangle != MISS
+        paths, hits = keep(paths, hits, met)
         if len(paths.index) == 0:
             break
         surface = build_surface(world.materials, hits, -paths.rays.direction)
+        if boundary is not None:
+            surface = face_boundaries(surface, boundary, met)
         if segment == 0:
             estimate.hit[paths.index] = True
             estimate.normal[paths.index] = surface.ns
@@ -153,6 +176,49 @@ def keep(paths: Paths, hits: Hits, rows: NDArray[np.bool_]) -> tuple[Paths, Hits
     return kept, Hits(hits.triangle[rows], hits.t[rows], hits.u[rows], hits.v[rows])
 
 
+def pass_boundaries(
+    world: World, paths: Paths, hits: Hits, rng: np.random.Generator
+) -> tuple[Paths, Hits, Boundaries]:
+    """Paths and hits beyond surfaces of media that give way to others, and the boundaries met there."""
+    assert world.nested is not None
+    boundary = no_boundaries(len(hits.t))
+    for _ in range(MOST_SHEETS):
+        hits, media, passed = meet_boundaries(world.nested, (paths.rays, paths.media), hits, boundary)
+        paths = replace(paths, media=media)
+        if not passed.any():
+            break
+        if world.sheets:
+            rows = np.flatnonzero(passed)
+            some = Rays(*(part[rows] for part in (paths.rays.origin, paths.rays.direction, paths.rays.far)))
+            found, tint = pass_sheets(world.traced, world.materials, some, pick(hits, rows), rng)
+            hits = put_hits(hits, rows, found)
+            paths.throughput[rows] *= tint
+    return paths, hits, boundary
+
+
+def nested_transmittance(world: World, rays: Rays, media: Stack) -> Float64:
+    """(n, 3) of the light along rays that start in `media`; 0 behind something solid."""
+    assert world.nested is not None
+    light = np.ones((len(rays.far), 3))
+    hits = world.traced.intersect(rays)
+    boundary = no_boundaries(len(hits.t))
+    for _ in range(MOST_SHEETS):
+        hits, media, _passed = meet_boundaries(world.nested, (rays, media), hits, boundary)
+        met = hits.triangle != MISS
+        if not met.any():
+            return light
+        rows = np.flatnonzero(met)
+        if world.sheets:
+            alpha, through = sheet_values(world.materials, pick(hits, rows), rays.direction[rows])
+            light[rows] *= (1.0 - alpha)[:, None] * through
+        else:
+            light[rows] = 0.0
+        hits.triangle[rows[~np.any(light[rows] > 0.0, axis=1)]] = MISS
+        hits = sheet_beyond(world.traced, rays, hits, np.flatnonzero(hits.triangle != MISS))
+    light[hits.triangle != MISS] = 0.0
+    return light
+
+
 def outdoors(world: World, paths: Paths) -> Paths:
     """The paths as what lies endlessly far sees them: black where they never left a medium."""
     if not world.media:
@@ -176,6 +242,8 @@ def beyond(world: World, paths: Paths, surface: Surface, wi: Float64) -> Stack:
         return paths.media
     passes = dot(wi, surface.ng) < 0.0
     crossed = cross_surface(world.materials, paths.media, surface.row, surface.outside)
+    if surface.ratio is not None and surface.behind is not None:
+        crossed = np.where((surface.ratio > 0.0)[:, None], surface.behind, crossed)
     return np.where(passes[:, None], crossed, paths.media)
 
 
@@ -264,7 +332,10 @@ def add_light_sample(
     far = np.where(np.isinf(distance), FAR, distance * (1.0 - 1e-5) - 2.0 * surface.epsilon[rows])
     rays = Rays(start, sample.wi[rows], np.maximum(far, 0.0))
     estimate.rays.shadow += int(rows.sum())
-    if world.sheets:
+    if world.nested is not None:
+        start = beyond(world, paths, surface, sample.wi)[rows]
+        passed = nested_transmittance(world, rays, start)
+    elif world.sheets:
         passed = transmittance(world.traced, world.materials, rays)
     else:
         passed = np.where(world.traced.occluded(rays)[:, None], 0.0, 1.0)

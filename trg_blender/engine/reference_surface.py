@@ -75,6 +75,10 @@ class Surface:
     row: NDArray[np.int64]
     """(n,) row of the material table, where it is a mixture that of the whole"""
     points: Points
+    ratio: Float64 | None = None
+    """(n,) index behind over index before, where media with priorities meet; 0: by the material alone"""
+    behind: NDArray[np.int64] | None = None
+    """(n, MOST_MEDIA) media behind the surface where `ratio` is not 0"""
 
     def leave(self, wi: Float64) -> Float64:
         """Where a ray along `wi` starts: just off the surface, on the side it goes to."""

@@ -209,6 +209,8 @@ class Material:
     absorption_g: float = 0.0
     absorption_b: float = 0.0
     """per metre, of what the surface encloses"""
+    priority: float = 0.0
+    """of what it encloses where media overlap or touch: the highest rules; 0: none, absorption adds up"""
 
 
 @dataclass(slots=True)

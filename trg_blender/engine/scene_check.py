@@ -8,6 +8,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from .antialiasing import ANTIALIASINGS, FINEST_GRID
+from .coincidence import coincidence_warnings
 from .errors import SceneError
 from .motion import MOST_KEYS
 from .passes import PASS_NAMES
@@ -74,7 +75,7 @@ def check_scene(scene: SceneArrays) -> list[str]:
         check_instance(scene, instance)
     check_tables(scene)
     check_environment(scene.environment)
-    return list(non_finite_warnings(scene.meshes))
+    return [*non_finite_warnings(scene.meshes), *coincidence_warnings(scene)]
 
 
 def check_camera(camera: Camera) -> None:

@@ -29,6 +29,7 @@ def read_classic(material: bpy.types.Material | None, row: Material) -> ClassicM
         reflect=(reflect, reflect, reflect),
         refract=through,
         ior=max(row.ior, 1e-3),
+        decay=(row.absorption_r + row.absorption_g + row.absorption_b) / 3.0,
         texture_share=1.0,
     )
 

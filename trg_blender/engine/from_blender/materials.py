@@ -14,6 +14,7 @@ from ..classic_arrays import ClassicMaterial
 from ..scene_arrays import Identity, Material
 from .classic import read_classic
 from .identities import identity_of_material
+from .media import AIR, Medium, fill_rows
 from .shaders import ShaderReader
 from .sockets import active_tree
 from .textures import TextureTable
@@ -30,20 +31,20 @@ class MaterialTable:
     textures: TextureTable = field(init=False)
     identities: list[Identity] = field(default_factory=list)
     """of the rows, for passes"""
-    _index: dict[int, int] = field(default_factory=dict)
+    _index: dict[tuple[int, Medium], int] = field(default_factory=dict)
     _attributes: dict[int, frozenset[int]] = field(default_factory=dict)
     """row -> numbers of the corner attributes that its textures read"""
 
     def __post_init__(self) -> None:
         self.textures = TextureTable(self.warnings)
 
-    def add(self, material: bpy.types.Material | None) -> int:
-        """Row of `material` (evaluated), read at its first mention."""
-        key = material.as_pointer() if material is not None else 0
+    def add(self, material: bpy.types.Material | None, medium: Medium = AIR) -> int:
+        """Row of `material` (evaluated) around `medium`, read at its first mention."""
+        key = (material.as_pointer() if material is not None else 0, medium)
         if key not in self._index:
             reader = ShaderReader("" if material is None else f"material {material.name!r}", self.textures)
             self._index[key] = len(self.rows)
-            row, parts = _read_material(material, reader)
+            row, parts = fill_rows(*_read_material(material, reader), material, medium)
             if parts:
                 row = replace(row, mix_first=len(self.rows) + 1, mix_count=len(parts))
             self.rows += [row, *parts]

@@ -9,6 +9,7 @@ import numpy as np
 
 from ..reference_patterns import hash_words
 from ..scene_arrays import Float32
+from .media import AIR, Medium, claimed_medium
 from .shapes import claimed_shape
 
 WITHOUT_SURFACE = {"EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "CURVE", "FONT", "META", "SURFACE"}
@@ -37,6 +38,8 @@ class MeshGroup:
     """indices into Found.transforms"""
     owners: set[str] = field(default_factory=set)
     """names of the objects, and of those that make instances of them"""
+    medium: Medium = AIR
+    """what the object's tags say that it is filled with"""
 
 
 @dataclass(slots=True)
@@ -90,10 +93,12 @@ def _add_mesh(
     mesh = owner.data
     materials = tuple(slot.material for slot in owner.material_slots) or (None,)
     shape = claimed_shape(owner)
-    key = (mesh.as_pointer(), hash(shape), *(0 if each is None else each.as_pointer() for each in materials))
+    medium = claimed_medium(owner)
+    pointers = (0 if each is None else each.as_pointer() for each in materials)
+    key = (mesh.as_pointer(), hash((shape, medium)), *pointers)
     group = groups.get(key)
     if group is None:
-        group = groups[key] = MeshGroup(mesh, materials, owner.name, shape)
+        group = groups[key] = MeshGroup(mesh, materials, owner.name, shape, medium=medium)
         if owner.is_holdout or owner.is_shadow_catcher:
             warnings.append(f"object {owner.name!r}: rendered as a plain surface, without holdout")
         if not owner.visible_camera:

@@ -136,7 +136,7 @@ class _Meshes:
     def _add(
         self, group: MeshGroup, transforms: Float32, randoms: Float32, identities: NDArray[np.object_]
     ) -> None:
-        slots = tuple(self.table.add(material) for material in group.materials)
+        slots = tuple(self.table.add(material, group.medium) for material in group.materials)
         index = self._mesh(group, slots)
         mesh = self.arrays.meshes[index]
         if not len(mesh.triangles):
