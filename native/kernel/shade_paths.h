@@ -119,6 +119,19 @@ TRG_FN Vec3 emission_seen(const SceneView& scene, const Surface& s, const Arriva
     return light * power_heuristic(by.pdf, density * by.hit.t * by.hit.t / cosine);
 }
 
+/// Looks up the textures of what only the larger kernel sets have.
+template <uint32_t F>
+TRG_FN void look_up_layers(LookUp* look, Material* m) {
+    const auto share = [&](int32_t texture, float* value) {
+        if (texture >= 0) *value = clamp01(look_up<F>(look, texture).x);
+    };
+    share(m->transmission_texture, &m->transmission);
+    share(m->coat_texture, &m->coat);
+    share(m->sheen_roughness_texture, &m->sheen_roughness);
+    share(m->diffuse_roughness_texture, &m->diffuse_roughness);
+    if (m->sheen_texture >= 0) m->sheen = m->sheen * clamp01(look_up<F>(look, m->sheen_texture).x);
+}
+
 /// The material in `row` at the point, its textures looked up.
 template <uint32_t F>
 TRG_FN Material material_at(LookUp* look, int32_t row) {
@@ -128,6 +141,7 @@ TRG_FN Material material_at(LookUp* look, int32_t row) {
         if (m.roughness_texture >= 0)
             m.roughness = clamp01(look_up<F>(look, m.roughness_texture).x);
         if (m.metallic_texture >= 0) m.metallic = clamp01(look_up<F>(look, m.metallic_texture).x);
+        if constexpr (has(F, kLayers)) look_up_layers<F>(look, &m);
         m.base = {clamp01(m.base.x), clamp01(m.base.y), clamp01(m.base.z)};
     }
     return m;

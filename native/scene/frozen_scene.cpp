@@ -83,7 +83,9 @@ void FrozenScene::check_materials(const Scene& scene) const {
     for (const Material& m : scene.tables.materials)
         for (int32_t index :
              {m.base_texture, m.roughness_texture, m.metallic_texture, m.emission_texture,
-              m.normal_texture, m.alpha_texture, m.weight_texture})
+              m.normal_texture, m.alpha_texture, m.weight_texture, m.transmission_texture,
+              m.coat_texture, m.sheen_texture, m.sheen_roughness_texture,
+              m.diffuse_roughness_texture})
             if (index >= textures)
                 throw TableError(
                     "textures: the table was replaced by one too short for the materials");
@@ -136,6 +138,16 @@ void FrozenScene::view_corners(const Scene& scene) {
     }
 }
 
+namespace {
+
+/// Whether textures drive what only the larger kernel sets look up.
+bool has_layer_textures(const Material& m) {
+    return m.transmission_texture >= 0 || m.coat_texture >= 0 || m.sheen_texture >= 0 ||
+           m.sheen_roughness_texture >= 0 || m.diffuse_roughness_texture >= 0;
+}
+
+}  // namespace
+
 uint32_t FrozenScene::find_features(const Scene& scene) const {
     uint32_t features = 0;
     for (const Texture& texture : scene.tables.textures.textures)
@@ -145,7 +157,9 @@ uint32_t FrozenScene::find_features(const Scene& scene) const {
             m.emission_texture >= 0 || m.normal_texture >= 0 || m.alpha_texture >= 0 ||
             m.weight_texture >= 0)
             features |= kTextures;
-        if (m.transmission > 0.0f || m.translucent) features |= kTransmission;
+        if (has_layer_textures(m)) features |= kTextures | kLayers;
+        if (m.transmission > 0.0f || m.transmission_texture >= 0 || m.translucent)
+            features |= kTransmission;
         if (m.mix_count > 0) features |= kMixtures;
         if (!is_black(m.absorption) || m.priority > 0.0f) features |= kMedia;
         if (m.coat > 0.0f || max_component(m.sheen) > 0.0f || m.diffuse_roughness > 0.0f)

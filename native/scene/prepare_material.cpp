@@ -33,8 +33,10 @@ void prepare_material(Material* m, EnergyTables* energy) {
     const bool varies = m->roughness_texture >= 0;
     const bool metal = m->metallic > 0.0f || m->metallic_texture >= 0;
     const bool dielectric = m->metallic < 1.0f || m->metallic_texture >= 0;
-    const bool gloss = dielectric && m->transmission < 1.0f && m->gloss_ior != 1.0f;
-    const bool glass = dielectric && m->transmission > 0.0f && m->ior != 1.0f;
+    const bool gloss = dielectric && (m->transmission < 1.0f || m->transmission_texture >= 0) &&
+                       m->gloss_ior != 1.0f;
+    const bool glass =
+        dielectric && (m->transmission > 0.0f || m->transmission_texture >= 0) && m->ior != 1.0f;
     const float roughness = varies ? -1.0f : m->roughness;
     EnergyIndex& e = m->energy;
     e = {-1, -1, -1, -1, -1, -1, varies ? kEnergyRows : 1};
@@ -47,7 +49,7 @@ void prepare_material(Material* m, EnergyTables* energy) {
         e.outside = energy->add(EnergyKind::glass, m->ior, roughness);
         e.inside = energy->add(EnergyKind::glass, 1.0f / m->ior, roughness);
     }
-    if (m->coat > 0.0f) {
+    if (m->coat > 0.0f || m->coat_texture >= 0) {
         const float coat_roughness = std::sqrt(m->coat_alpha);
         m->coat_mean = mean_fresnel_dielectric(m->coat_ior);
         e.coat_facets = energy->add(EnergyKind::facets, 1.0f, coat_roughness);
@@ -72,7 +74,8 @@ std::vector<int32_t> prepare_boundaries(const std::vector<Material>& materials,
     const auto add = [&](const Material* here, const Material* there, bool enters) {
         const Material* owner = enters ? there : here;
         const bool needed = owner && rank(owner) >= rank(enters ? here : there) &&
-                            owner->transmission > 0.0f && index(here) != index(there);
+                            (owner->transmission > 0.0f || owner->transmission_texture >= 0) &&
+                            index(here) != index(there);
         if (!needed) return -1;
         const bool varies = owner->roughness_texture >= 0;
         if (!varies && owner->roughness * owner->roughness < kSmoothAlpha) return -1;

@@ -51,7 +51,12 @@ const std::vector<const char*> kMaterialFields = {"base_r",
                                                   "absorption_r",
                                                   "absorption_g",
                                                   "absorption_b",
-                                                  "priority"};
+                                                  "priority",
+                                                  "transmission_texture",
+                                                  "coat_texture",
+                                                  "sheen_texture",
+                                                  "sheen_roughness_texture",
+                                                  "diffuse_roughness_texture"};
 
 namespace {
 
@@ -99,6 +104,11 @@ Material read_material(TableRow row, int64_t material_count, int64_t texture_cou
     m.weight_texture = row.next_index(-1, texture_count);
     m.absorption = next_color(row);
     m.priority = row.next(0.0f, 1e6f);
+    m.transmission_texture = row.next_index(-1, texture_count);
+    m.coat_texture = row.next_index(-1, texture_count);
+    m.sheen_texture = row.next_index(-1, texture_count);
+    m.sheen_roughness_texture = row.next_index(-1, texture_count);
+    m.diffuse_roughness_texture = row.next_index(-1, texture_count);
     if (m.mix_count > 0 && (m.mix_first < 0 || m.mix_first + m.mix_count > material_count))
         throw TableError("materials: a mixture of rows that are not there");
     return m;

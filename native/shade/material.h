@@ -56,6 +56,9 @@ struct Material {
     Vec3 absorption;  // per unit of length, of what the surface encloses
     float priority;   // of what it encloses, over other media; 0: none
     int32_t medium;   // number among those with priorities, from 1 on
+    int32_t transmission_texture, coat_texture;
+    int32_t sheen_texture;  // multiplies the sheen
+    int32_t sheen_roughness_texture, diffuse_roughness_texture;
     EnergyIndex energy;
 };
 

@@ -72,3 +72,27 @@ def test_a_user_gives_a_material_a_priority(scene):
     material["trg_priority"] = "much"
     material.update_tag()
     assert [row.priority for row in read(scene).materials] == [0.0]
+
+
+def test_weights_of_layers_and_transmission_take_textures(scene):
+    bpy.ops.mesh.primitive_cube_add()
+    material = bpy.data.materials.new("layers")
+    tree = material.node_tree
+    if tree is None:
+        material.use_nodes = True
+        tree = material.node_tree
+    tree.nodes.clear()
+    shader, output = tree.nodes.new("ShaderNodeBsdfPrincipled"), tree.nodes.new("ShaderNodeOutputMaterial")
+    checker = tree.nodes.new("ShaderNodeTexChecker")
+    tree.links.new(shader.outputs[0], output.inputs["Surface"])
+    names = ("Transmission Weight", "Coat Weight", "Sheen Weight", "Sheen Roughness")
+    for name in names:
+        tree.links.new(checker.outputs["Fac"], shader.inputs[name])
+    bpy.context.object.data.materials.append(material)
+    bpy.ops.object.camera_add()
+    scene.camera = bpy.context.object
+    arrays = read(scene)
+    (row,) = arrays.materials
+    found = (row.transmission_texture, row.coat_texture, row.sheen_texture, row.sheen_roughness_texture)
+    assert min(found) >= 0 and row.sheen_r > 0.0
+    assert not [text for text in arrays.warnings if "not supported" in text]

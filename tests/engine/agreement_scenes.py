@@ -167,6 +167,15 @@ def _priorities() -> SceneArrays:
     return scene
 
 
+def _textured_layers() -> SceneArrays:
+    """Weights and roughnesses of layers and transmission by one picture."""
+    names = ("transmission", "coat", "sheen", "sheen_roughness", "diffuse_roughness")
+    row = Material(0.8, 0.5, 0.3, roughness=0.3, coat_roughness=0.2, sheen_r=1.0, sheen_g=0.5, sheen_b=0.2)
+    scene = studio(replace(row, **{f"{name}_texture": 0 for name in names}))
+    scene.images, scene.textures = [checker()], [Texture(0, 4.0, 2.0)]
+    return scene
+
+
 def _textured() -> SceneArrays:
     scene = studio(
         Material(
@@ -374,6 +383,7 @@ GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "mixed": _mixed,
     "nested_media": _nested_media,
     "priorities": _priorities,
+    "textured_layers": _textured_layers,
     "textured": _textured,
     "shapes": _shapes,
     "mirrored_and_squashed": _mirrored_and_squashed,

@@ -111,6 +111,14 @@ def evaluate_material(
     roughness = textured_number(table, "roughness", column, points)
     metallic = textured_number(table, "metallic", column, points)
     column["present"] = textured_number(table, "alpha", column, points)
+    for name in ("transmission", "coat", "sheen_roughness", "diffuse_roughness"):
+        if np.any(column[f"{name}_texture"] >= 0):
+            column[name] = textured_number(table, name, column, points)
+    if np.any(column["sheen_texture"] >= 0):
+        plain = np.ones((len(points.b1), 3))
+        sheen = np.clip(textured(table, column["sheen_texture"], points, plain)[:, 0], 0.0, 1.0)
+        for channel in "rgb":
+            column[f"sheen_{channel}"] = column[f"sheen_{channel}"] * sheen
     return Material(
         base,
         metallic,

@@ -211,6 +211,12 @@ class Material:
     """per metre, of what the surface encloses"""
     priority: float = 0.0
     """of what it encloses where media overlap or touch: the highest rules; 0: none, absorption adds up"""
+    transmission_texture: int = -1
+    coat_texture: int = -1
+    sheen_texture: int = -1
+    """multiplies the sheen"""
+    sheen_roughness_texture: int = -1
+    diffuse_roughness_texture: int = -1
 
 
 @dataclass(slots=True)

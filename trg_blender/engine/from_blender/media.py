@@ -42,7 +42,7 @@ def fill_rows(
     A program's medium has priority 1 unless the material names another: within it the innermost rules.
     """
     rows = parts or [row]
-    passing = [one for one in rows if one.transmission > 0.0]
+    passing = [one for one in rows if _passes(one)]
     own = 0.0 if material is None else material.get(PRIORITY, 0.0)
     priority = min(max(float(own), 0.0), 1e6) if isinstance(own, (int, float)) else 0.0
     if not passing:
@@ -64,4 +64,8 @@ def fill_rows(
 
 
 def _with_index(row: Material, index: float) -> Material:
-    return replace(row, ior=index) if row.transmission > 0.0 else row
+    return replace(row, ior=index) if _passes(row) else row
+
+
+def _passes(row: Material) -> bool:
+    return row.transmission > 0.0 or row.transmission_texture >= 0

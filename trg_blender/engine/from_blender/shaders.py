@@ -227,6 +227,7 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
     emission, emission_texture = reader.glow(node, "Emission Color", "Emission Strength")
     alpha, alpha_texture = reader.number(node, "Alpha")
     tint, _ = reader.color(node, "Specular Tint")
+    transmission, transmission_texture = reader.number(node, "Transmission Weight")
     return replace(
         _layers(reader, node),
         base_r=base[0],
@@ -236,7 +237,8 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
         roughness=_share(roughness),
         ior=_safe_ior(reader.plain_number(node, "IOR")),
         specular=max(2.0 * reader.plain_number(node, "Specular IOR Level"), 0.0),
-        transmission=_share(reader.plain_number(node, "Transmission Weight")),
+        transmission=_share(transmission),
+        transmission_texture=transmission_texture,
         emission_r=emission[0],
         emission_g=emission[1],
         emission_b=emission[2],
@@ -258,13 +260,19 @@ def _layers(reader: ShaderReader, node: bpy.types.Node) -> Material:
     """Coat, sheen and the roughness of the diffuse base of a Principled BSDF; the rest as by default."""
     coat_tint, _ = reader.color(node, "Coat Tint")
     sheen_tint, _ = reader.color(node, "Sheen Tint")
-    sheen = max(reader.plain_number(node, "Sheen Weight"), 0.0)
+    sheen, sheen_texture = reader.number(node, "Sheen Weight")
+    sheen = 1.0 if sheen_texture >= 0 else max(sheen, 0.0)
+    coat, coat_texture = reader.number(node, "Coat Weight")
+    fibres, fibres_texture = reader.number(node, "Sheen Roughness")
+    diffuse, diffuse_texture = reader.number(node, "Diffuse Roughness")
     normal = node.inputs.get("Coat Normal")
     if normal is not None and normal.is_linked:
         reader.miss(f"Coat Normal of node {node.name!r} (Principled BSDF)")
     return Material(
-        diffuse_roughness=_share(reader.plain_number(node, "Diffuse Roughness")),
-        coat=_share(reader.plain_number(node, "Coat Weight")),
+        diffuse_roughness=_share(diffuse),
+        diffuse_roughness_texture=diffuse_texture,
+        coat=_share(coat),
+        coat_texture=coat_texture,
         coat_roughness=_share(reader.plain_number(node, "Coat Roughness")),
         coat_ior=max(reader.plain_number(node, "Coat IOR"), 1.0),
         coat_tint_r=max(coat_tint[0], 0.0),
@@ -273,7 +281,9 @@ def _layers(reader: ShaderReader, node: bpy.types.Node) -> Material:
         sheen_r=sheen * max(sheen_tint[0], 0.0),
         sheen_g=sheen * max(sheen_tint[1], 0.0),
         sheen_b=sheen * max(sheen_tint[2], 0.0),
-        sheen_roughness=_share(reader.plain_number(node, "Sheen Roughness")),
+        sheen_texture=sheen_texture,
+        sheen_roughness=_share(fibres),
+        sheen_roughness_texture=fibres_texture,
     )
 
 
