@@ -54,11 +54,11 @@ float albedo_at(const Facets& f, float mu) {
     return static_cast<float>(sum / total);
 }
 
-/// The mean weighted by the cosine of what is linear between the nodes in the root of the cosine:
-/// Simpson's rule in that root.
+/// The mean weighted by the cosine of what is linear between the nodes in the fourth root of the
+/// cosine: Simpson's rule in that root.
 float mean_albedo(const float* values) {
     constexpr double kStep = 1.0 / (kEnergyNodes - 1);
-    const auto weight = [](double t) { return 4.0 * t * t * t; };
+    const auto weight = [](double t) { return 8.0 * t * t * t * t * t * t * t; };
     double sum = 0.0;
     for (int k = 0; k + 1 < kEnergyNodes; ++k) {
         const double a = values[k], b = values[k + 1], t = k * kStep;
@@ -73,7 +73,7 @@ void append_row(const Facets& f, std::vector<float>* values) {
     const size_t first = values->size();
     for (int k = 0; k < kEnergyNodes; ++k) {
         const float t = static_cast<float>(k) / (kEnergyNodes - 1);
-        values->push_back(albedo_at(f, t * t));
+        values->push_back(albedo_at(f, t * t * t * t));
     }
     values->push_back(mean_albedo(values->data() + first));
 }

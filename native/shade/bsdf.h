@@ -152,9 +152,6 @@ TRG_FN bool sample_glass(const Bsdf& b, Vec3 h, float u, BsdfSample* sample, boo
     const Vec3 way = reflected ? glass_reflectance(b, f) * (1.0f / f)
                                : glass_transmittance(b, f) * (1.0f / (1.0f - f));
     sample->weight = b.glass * way * (1.0f / b.p_glass);
-    if (!b.smooth)
-        sample->weight =
-            sample->weight * ((1.0f + b.slope_wo) / (b.slope_wo + ggx_slope(wi, b.alpha)));
     return on_right_side(b, wi, reflected);
 }
 

@@ -127,7 +127,7 @@ TRG_FN void add_glass(const Material& m, const View& view, Vec3 weight, Bsdf* b)
     b->glass_shift = m.glass_shift;
     b->glass = weight;
     const int32_t table = view.outside ? m.energy.outside : m.energy.inside;
-    if (table < 0 || b->smooth || !(m.multiscatter > 0.0f) || !b->reflects) return;
+    if (table < 0 || b->smooth || b->thin_step || !(m.multiscatter > 0.0f) || !b->reflects) return;
     const Energy e = look_up_energy(view.energy + table, m.energy.rows, m.roughness, view.wo.z);
     b->glass = weight * energy_factor(e, b->passed);
 }

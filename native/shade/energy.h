@@ -8,7 +8,7 @@
 
 namespace trg {
 
-/// A row belongs to one roughness: values at cosines (k / (kEnergyNodes - 1))^2, then their mean
+/// A row belongs to one roughness: values at cosines (k / (kEnergyNodes - 1))^4, then their mean
 /// weighted by the cosine. Rows of a table lie at even steps of roughness from 0 to 1.
 constexpr int32_t kEnergyNodes = 64;
 constexpr int32_t kEnergyStride = kEnergyNodes + 1;
@@ -36,7 +36,7 @@ struct Energy {
 };
 
 TRG_FN Energy look_up_energy(const float* table, int32_t rows, float roughness, float cosine) {
-    const EnergyPlace mu = place_energy(std::sqrt(clamp01(cosine)), kEnergyNodes);
+    const EnergyPlace mu = place_energy(std::sqrt(std::sqrt(clamp01(cosine))), kEnergyNodes);
     if (rows == 1) return {mix_energy(table, mu), table[kEnergyNodes]};
     const EnergyPlace r = place_energy(roughness, rows);
     const float* low = table + r.index * kEnergyStride;

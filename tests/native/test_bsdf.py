@@ -43,6 +43,17 @@ def test_a_white_surface_in_white_light_is_white(kind: str, roughness: float):
         assert low - 4.0 * noise < weight.mean() < 1.0 + 1e-3 + 4.0 * noise, (angle, weight.mean(), noise)
 
 
+@pytest.mark.parametrize("roughness", ROUGHNESSES)
+@pytest.mark.parametrize("ior", [0.5, 1.0, 1.0 + 1e-7, 1.5, 10.0, 100.0])
+def test_white_glass_of_any_index_keeps_all_light(ior: float, roughness: float):
+    """Row B04; the tables are good to 1e-3 at 89.99 degrees."""
+    for angle in ANGLES:
+        drawn = sample(Material(**WHITE, transmission=1.0, ior=ior, roughness=roughness), view(angle), COUNT)
+        weight = drawn.weight[:, 0]
+        noise = weight.std() / np.sqrt(len(weight))
+        assert weight.mean() == pytest.approx(1.0, abs=1e-3 + 4.0 * noise), angle
+
+
 RINGS, SECTORS, FINE = 32, 16, 12
 """Bins of the facet's slope, by arctangent of the root of its length and by azimuth; points along a side."""
 

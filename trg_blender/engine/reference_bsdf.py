@@ -26,7 +26,6 @@ from .reference_ggx import (
     ggx_distribution,
     pdf_visible_normal,
     sample_visible_normal,
-    smith_lambda,
     smith_shadowing,
 )
 from .reference_layers import Sheen, build_sheen, eval_sheen, rough_diffuse, sample_sheen
@@ -119,7 +118,8 @@ def build_bsdf(surface: Surface) -> Bsdf:
     gloss = build_gloss(material, cosine, below * (1.0 - metallic) * (1.0 - passing))
     diffuse = below * (1.0 - metallic) * (1.0 - passing) * left_below(gloss.albedo) * material.base
     metal_weight = below * metallic * facets_factor(material, cosine, metal.mean())
-    glass_weight = below * (1.0 - metallic) * passing * glass_factor(material, eta, cosine)
+    factor = np.where(straight[:, None], 1.0, glass_factor(material, eta, cosine))
+    glass_weight = below * (1.0 - metallic) * passing * factor
     weights = Weights(metal_weight, glass_weight, diffuse, sheen_weight)
     choice = choose_lobes(material, (weights, gloss, coat), cosine, fresnel_dielectric(cosine, eta))
     return Bsdf(
@@ -372,8 +372,8 @@ def delta_weight(bsdf: Bsdf, lobe: NDArray[np.int64], wi_world: Float64) -> Floa
     by_lobe = [
         bsdf.weights.metal * bsdf.metal.at(cosine),
         bsdf.weights.glass * reflected,
-        # Rough glass that does not bend light still masks it: the limit of evaluate_refraction.
-        bsdf.weights.glass * passed * masking_straight_on(bsdf)[:, None],
+        # An interface that does not bend light is as good as not there, rough or not.
+        bsdf.weights.glass * passed,
         gloss,
         0.0 * gloss,
         bsdf.coat.weight * fresnel_dielectric(cosine, bsdf.coat.ior)[:, None],
@@ -385,9 +385,3 @@ def delta_weight(bsdf: Bsdf, lobe: NDArray[np.int64], wi_world: Float64) -> Floa
     side = np.where(lobe == GLASS_REFRACTION, -1.0, 1.0)
     right_side = (side * dot(wi_world, surface.ng) > 0.0) & (side * dot(wi_world, surface.ns) > 0.0)
     return np.where(right_side[:, None], weight, 0.0)
-
-
-def masking_straight_on(bsdf: Bsdf) -> Float64:
-    """G2 / G1 of light that goes straight on through facets; 1 for an ideal interface."""
-    hidden = smith_lambda(bsdf.wo, bsdf.surface.material.alpha)
-    return np.where(bsdf.ideal, 1.0, (1.0 + hidden) / (1.0 + 2.0 * hidden))
