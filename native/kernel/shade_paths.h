@@ -82,6 +82,18 @@ TRG_FN Vec3 gather_lights(const SceneView& scene, const Arrival& by) {
     return sum;
 }
 
+/// What a camera ray along unit `wi` sees of suns that belong to the environment.
+TRG_RARE_FN Vec3 suns_seen(const SceneView& scene, Vec3 wi) {
+    Vec3 sum{0.0f, 0.0f, 0.0f};
+    for (int32_t k = 0; k < scene.light_count; ++k) {
+        LightHit hit;
+        if (scene.lights[k].seen && scene.lights[k].extended &&
+            intersect_light(scene.lights[k], scene.camera.pose.origin, wi, kFar, &hit))
+            sum = sum + hit.radiance;
+    }
+    return sum;
+}
+
 /// What a ray that leaves the scene along `direction` (any length) sees of the world; `pdf` is the
 /// density of a bounce ray's direction, `depth` 0 for a camera ray.
 template <uint32_t F>
@@ -90,7 +102,9 @@ TRG_FN Vec3 world_seen(const SceneView& scene, Vec3 direction, float pdf, int32_
         const EnvironmentView& sky = scene.environment;
         if (!sky.pixels) return scene.background;
         if (depth == 0 && !sky.seen_by_camera) return {0.0f, 0.0f, 0.0f};
-        const SkyPlace at = sky_place(sky, normalize(direction));
+        const Vec3 wi = normalize(direction);
+        const SkyPlace at = sky_place(sky, wi);
+        if (depth == 0 && sky.has_suns) return eval_sky(sky, at) + suns_seen(scene, wi);
         const float weight =
             pdf > 0.0f && sky.sampled ? power_heuristic(pdf, pdf_sky(sky, at)) : 1.0f;
         return eval_sky(sky, at) * weight;

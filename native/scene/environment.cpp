@@ -78,7 +78,8 @@ EnvironmentView view_environment(const Environment& e) {
             e.row_limits.data(),
             e.limits.data(),
             e.sampled,
-            e.seen_by_camera};
+            e.seen_by_camera,
+            false};
 }
 
 }  // namespace trg

@@ -53,6 +53,8 @@ FrozenScene::FrozenScene(const Scene& scene) {
     view_.emitters = view_emitters(emitters_);
     view_.background = scene.tables.background;
     view_.environment = view_environment(scene.tables.environment);
+    for (const Light& light : scene.tables.lights)
+        view_.environment.has_suns = view_.environment.has_suns || light.seen;
     view_.camera = scene.tables.camera;
     view_.filter = data_or_null(scene.tables.filter);
     view_classic(scene.tables);

@@ -27,7 +27,8 @@ const std::vector<const char*> kLightFields = {"kind",
                                                "falloff_linear",
                                                "falloff_quadratic",
                                                "spread",
-                                               "soft"};
+                                               "soft",
+                                               "seen"};
 
 namespace {
 
@@ -56,6 +57,7 @@ LightRow read_light(TableRow& row) {
     for (float& coefficient : light.falloff) coefficient = row.next();
     read.spread = row.next(0.0f, 3.1416f);
     light.soft = row.next_share() > 0.5f;
+    light.seen = row.next_share() > 0.5f && light.kind == LightKind::sun;
     light.direction = normalize_safe(light.direction);
     if (is_black(light.direction) && light.kind != LightKind::point) row.fail("has no direction");
     return read;
@@ -92,6 +94,21 @@ void prepare_area(Light& light) {
     const float shape = light.kind == LightKind::ellipse ? kPi : 4.0f;
     light.area = shape * length(cross(light.axis_u, light.axis_v));
     light.extended = light.area > 0.0f;
+    // Solid angles are known of right angles only; by them rectangles are drawn within some sizes
+    // of their own, ellipses within fewer.
+    constexpr float kSquare = 1e-4f, kNearRectangle2 = 64.0f, kNearEllipse2 = 9.0f;
+    light.half_u = length(light.axis_u);
+    light.half_v = length(light.axis_v);
+    const float product = light.half_u * light.half_v;
+    const bool square = std::fabs(dot(light.axis_u, light.axis_v)) <= kSquare * product &&
+                        std::fabs(dot(light.axis_u, light.direction)) <= kSquare * light.half_u &&
+                        std::fabs(dot(light.axis_v, light.direction)) <= kSquare * light.half_v;
+    light.near2 = 0.0f;
+    if (!light.extended || !square) return;
+    light.near2 =
+        light.kind == LightKind::ellipse
+            ? kNearEllipse2 * product
+            : kNearRectangle2 * std::fmax(light.half_u * light.half_u, light.half_v * light.half_v);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ struct EnvironmentView {
     const uint32_t* limits;
     bool sampled;         // false: so even that bounce rays alone find it
     bool seen_by_camera;  // false: camera rays that leave the scene see nothing
+    bool has_suns;        // some lights are seen by camera rays with it
 };
 
 /// The index whose share of 2^32 `bits` falls in.

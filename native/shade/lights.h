@@ -2,8 +2,7 @@
 /// them.
 #pragma once
 
-#include "shade/frame.h"
-#include "shade/sampler.h"
+#include "shade/rectangle_light.h"
 
 namespace trg {
 
@@ -20,12 +19,15 @@ struct Light {
     Vec3 direction;       // sun: towards the light; others: along which it shines; unit
     Vec3 axis_u, axis_v;  // half axes
     float radius;
-    float area;         // rectangle, ellipse
-    float solid_angle;  // sun
-    float chord2;       // sun: squared chord from the centre of the disc to its rim
+    float area;            // rectangle, ellipse
+    float near2;           // rectangle, ellipse: squared distance below which it is seen as large
+    float half_u, half_v;  // lengths of the half axes
+    float solid_angle;     // sun
+    float chord2;          // sun: squared chord from the centre of the disc to its rim
     float cos_outer, cos_inner;
     float falloff[3];
     bool soft;    // point, spot: a disc that faces whoever it lights
+    bool seen;    // sun: by the camera too, where it sees the environment
     bool spread;  // area: shines into a cone only
     float spread_tangent, spread_scale;
 };
@@ -129,7 +131,51 @@ TRG_FN bool sample_sphere(const Light& light, Vec3 p, Sample2 uv, LightSample* s
     return true;
 }
 
+/// The light's rectangle, or the one around its ellipse, as seen from `p`, where directions even by
+/// solid angle serve better than points even by area: near rectangles, and ellipses so near or so
+/// flat that nearly all of their rectangle counts. False elsewhere, and where float has too few
+/// digits. `offset` leads from `p` to the light's centre.
+TRG_FN bool see_rectangle(const Light& light, Vec3 offset, SeenRectangle* r) {
+    constexpr float kSmallest = 4e-3f, kSteep2 = 0.4f, kBeside2 = 9.0f;
+    const float d2 = dot(offset, offset);
+    if (!(d2 < light.near2)) return false;
+    r->height = -dot(offset, light.direction);
+    if (!(r->height > 0.0f)) return false;
+    if (light.kind == LightKind::ellipse && r->height * r->height > kSteep2 * d2 &&
+        kBeside2 * d2 > light.near2)
+        return false;
+    const float x = dot(offset, light.axis_u) / light.half_u;
+    const float y = dot(offset, light.axis_v) / light.half_v;
+    r->x0 = x - light.half_u;
+    r->x1 = x + light.half_u;
+    r->y0 = y - light.half_v;
+    r->y1 = y + light.half_v;
+    measure_rectangle(r);
+    return r->solid_angle > kSmallest;
+}
+
+TRG_FN bool sample_seen(const Light& light, const SeenRectangle& r, Sample2 uv,
+                        LightSample* sample) {
+    float x, y;
+    sample_rectangle(r, uv, &x, &y);
+    if (light.kind == LightKind::ellipse) {
+        const float a = (2.0f * x - r.x0 - r.x1) / (r.x1 - r.x0);
+        const float b = (2.0f * y - r.y0 - r.y1) / (r.y1 - r.y0);
+        if (a * a + b * b > 1.0f) return false;
+    }
+    const Vec3 to = light.axis_u * (x / light.half_u) + light.axis_v * (y / light.half_v) +
+                    light.direction * -r.height;
+    sample->distance = length(to);
+    sample->wi = to / sample->distance;
+    sample->pdf = 1.0f / r.solid_angle;
+    sample->light = light.color * (eval_spread(light, r.height / sample->distance) * r.solid_angle);
+    return true;
+}
+
 TRG_FN bool sample_area(const Light& light, Vec3 p, Sample2 uv, LightSample* sample) {
+    SeenRectangle seen;
+    if (see_rectangle(light, light.position - p, &seen))
+        return sample_seen(light, seen, uv, sample);
     float a = 2.0f * uv.u - 1.0f, b = 2.0f * uv.v - 1.0f;
     if (light.kind == LightKind::ellipse) sample_disc(uv.u, uv.v, &a, &b);
     const Vec3 to = light.position + light.axis_u * a + light.axis_v * b - p;
@@ -144,25 +190,26 @@ TRG_FN bool sample_area(const Light& light, Vec3 p, Sample2 uv, LightSample* sam
     return true;
 }
 
-/// Density, by solid angle from `p`, of the disc about `to` where the ray along `wi` meets it.
-TRG_FN float soft_density(const Light& light, Vec3 to, Vec3 wi, float distance) {
-    const float cosine = dot(to, wi) / length(to);
-    return distance * distance / (cosine * kPi * light.radius * light.radius);
+/// Squared chord of the cone that a disc of `radius` fills which faces a point at squared distance
+/// `d2`.
+TRG_FN float disc_chord2(float radius, float d2) {
+    const float h2 = d2 + radius * radius;
+    return 2.0f * radius * radius / (h2 + std::sqrt(d2 * h2));
 }
 
 TRG_FN bool sample_soft(const Light& light, Vec3 p, Sample2 uv, LightSample* sample) {
     const Vec3 to = light.position - p;
-    const float away = length(to);
-    if (!(away > 0.0f)) return false;
-    const Frame frame = make_frame(to / away);
-    float a, b;
-    sample_disc(uv.u, uv.v, &a, &b);
-    const Vec3 at = to + (frame.s * a + frame.t * b) * light.radius;
-    sample->distance = length(at);
-    sample->wi = at / sample->distance;
-    sample->pdf = soft_density(light, to, sample->wi, sample->distance);
-    if (!(sample->pdf > 0.0f)) return false;
-    sample->light = light.color * (eval_spot(light, -sample->wi) / sample->pdf);
+    const float d2 = dot(to, to);
+    if (!(d2 > 0.0f)) return false;
+    const float away = std::sqrt(d2), chord2 = disc_chord2(light.radius, d2);
+    const Vec3 axis = to / away;
+    sample->wi = sample_cone(axis, chord2, uv);
+    const float cosine = dot(axis, sample->wi);
+    if (!(cosine > 0.0f)) return false;
+    sample->distance = away / cosine;
+    const float solid_angle = kPi * chord2;
+    sample->pdf = 1.0f / solid_angle;
+    sample->light = light.color * (solid_angle * eval_spot(light, -sample->wi));
     return true;
 }
 
@@ -204,7 +251,9 @@ TRG_FN bool intersect_area_light(const Light& light, Vec3 p, Vec3 wi, float t_ma
                             : std::fabs(a) <= 1.0f && std::fabs(b) <= 1.0f;
     if (!inside) return false;
     hit->radiance = light.color * eval_spread(light, cosine);
-    hit->pdf = t * t / (cosine * light.area);
+    SeenRectangle seen;
+    hit->pdf = see_rectangle(light, light.position - p, &seen) ? 1.0f / seen.solid_angle
+                                                               : t * t / (cosine * light.area);
     hit->distance = t;
     return true;
 }
@@ -217,7 +266,7 @@ TRG_FN bool intersect_soft_light(const Light& light, Vec3 p, Vec3 wi, float t_ma
     const Vec3 off = wi * t - to;
     if (!(t < t_max) || dot(off, off) > light.radius * light.radius) return false;
     hit->radiance = light.color * eval_spot(light, -wi);
-    hit->pdf = soft_density(light, to, wi, t);
+    hit->pdf = 1.0f / (kPi * disc_chord2(light.radius, dot(to, to)));
     hit->distance = t;
     return true;
 }

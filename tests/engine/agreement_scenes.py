@@ -121,6 +121,32 @@ LIGHTS = {
         axis_u=(0.6, 0, 0),
         axis_v=(0.1, 0.3, 0),
     ),
+    "rectangle_near": light(
+        "area_rectangle",
+        (2, 2, 3),
+        (0.2, -0.2, 1.5),
+        direction=(0, 0, -1),
+        axis_u=(1.5, 0, 0),
+        axis_v=(0, 0.6, 0),
+    ),
+    "rectangle_beside": light(
+        "area_rectangle",
+        (3, 3, 2),
+        (1.4, 0.2, 0.5),
+        direction=(-1, 0.2, 0),
+        axis_u=(0.14, 0.7, 0),
+        axis_v=(0, 0, 0.5),
+        spread=2.2,
+    ),
+    "ellipse_near": light(
+        "area_ellipse",
+        (3, 3, 4),
+        (-0.2, 0.1, 1.4),
+        direction=(0, 0, -1),
+        axis_u=(0.9, 0.3, 0),
+        axis_v=(-0.2, 0.6, 0),
+    ),
+    "soft_near": light("spot", (3, 2, 2), (0.4, -0.4, 1.0), direction=(0, 0, -1), radius=0.5, soft=1.0),
 }
 
 
@@ -296,13 +322,16 @@ def _many_lights() -> SceneArrays:
     return studio(MATERIALS["plastic"], *bulbs)
 
 
-def _light_tree(kinds: str = "psra", subject: str = "plastic", suns: int = 0) -> SceneArrays:
-    """More emitters than are listed: points, spots, areas, glowing boxes and spheres, turned anyhow."""
+def _light_tree(
+    kinds: str = "psra", subject: str = "plastic", suns: int = 0, lowest: float = 0.3
+) -> SceneArrays:
+    """More emitters than are listed: points, spots, areas, turned anyhow. Where rough glass would gather a
+    lamp right before it, `lowest` keeps them above."""
     rng = np.random.default_rng(7)
     lamps = []
     for number in range(48):
         kind = kinds[number % len(kinds)]
-        at = (*rng.uniform(-2.5, 2.5, 2), rng.uniform(0.3, 3.0))
+        at = (*rng.uniform(-2.5, 2.5, 2), rng.uniform(lowest, 3.0))
         down = (*rng.uniform(-1, 1, 2), -rng.uniform(0.1, 1.0))
         color = tuple(rng.random(3) * (2.0 if number % 9 else 20.0))
         if kind == "p":
@@ -379,6 +408,14 @@ def _environment_and_lights() -> SceneArrays:
     return scene
 
 
+def _sky_with_sun() -> SceneArrays:
+    """A sun that the camera sees within the environment, as Blender's Sky Texture has it."""
+    scene = _panorama()
+    scene.environment = Environment(sky_picture(sun=0.5), np.eye(3))
+    scene.lights = [light("sun", (2, 1.8, 1.5), direction=(-0.5, 0.6, 0.5), angle=0.3, seen=1.0)]
+    return scene
+
+
 GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "mixed": _mixed,
     "nested_media": _nested_media,
@@ -398,11 +435,12 @@ GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "all_lights": _all_lights,
     "many_lights": _many_lights,
     "light_tree": _light_tree,
-    "light_tree_glass_suns": lambda: _light_tree("pr", "glass_rough", 6),
+    "light_tree_glass_suns": lambda: _light_tree("pr", "glass_rough", 6, 1.5),
     "light_tree_deltas": lambda: _light_tree("s"),
     "light_tree_triangles": _tree_of_triangles,
     "environment": _environment,
     "environment_and_lights": _environment_and_lights,
+    "sky_with_sun": _sky_with_sun,
 }
 
 

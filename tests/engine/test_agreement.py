@@ -17,11 +17,8 @@ from .agreement import Agreement, compare, student_to_normal
 from .agreement_scenes import cases
 
 CASES = cases()
-OPEN = {
-    "light_spot": "one block differs by 3.53 standard errors (limit 3.34) after 1024 reference samples",
-    "light_tree_glass_suns": "the reference resolves 9 % after 1024 samples, 6 % are asked for",
-}
-"""Scenes about which nothing is settled yet, with the reason."""
+STEPS = (1, 4, 16)
+"""Times the samples of the first comparison: each step counts only where the one before left doubt."""
 
 
 @pytest.mark.parametrize("name", CASES)
@@ -30,15 +27,16 @@ def test_native_and_reference_agree(name: str):
         reason = find_device(device).reason
         if reason is not None:
             pytest.skip(reason)
-    if name in OPEN:
-        pytest.skip(OPEN[name])
     scene, settings = CASES[name]
-    # Half of the benchmark's samples: the reference is slow. Of so many scenes some differ by chance beyond
-    # three standard errors: what does must do so again with fresh samples, four times as many.
-    agreement = compare_renders(scene, replace(settings, samples=min(settings.samples, 256)), 4096)
-    if not agreement.agrees or agreement.resolution >= 0.06:
-        more = 4 * min(settings.samples, 256)
-        agreement = compare_renders(scene, replace(settings, samples=more, seed=settings.seed + 1), 16384)
+    # Of so many scenes some differ by chance beyond three standard errors, most easily where rare bright
+    # samples make the spread of eight replicates a poor measure: what does must do so again with fresh
+    # samples, more each time. A true difference then shows ever more clearly.
+    for attempt, step in enumerate(STEPS):
+        # The reference is slow, and slower with many lights.
+        asked = replace(settings, samples=step * min(settings.samples, 256), seed=settings.seed + attempt)
+        agreement = compare_renders(scene, asked, step * 4096)
+        if agreement.agrees and agreement.resolution < 0.06:
+            break
     assert agreement.agrees, str(agreement)
     assert agreement.resolution < 0.06, f"the comparison could not see a fault: {agreement}"
 

@@ -94,9 +94,30 @@ def test_a_rectangle_gives_its_form_factor(height: float) -> None:
     assert pixels[..., :3].mean() == pytest.approx(expected, rel=5e-3)
 
 
-def test_a_disc_gives_its_form_factor() -> None:
-    expected = 0.5 * 0.5**2 / (0.5**2 + 1.0)
-    assert floor_radiance([area_light(ELLIPSE, 0.5, 1.0)]) == pytest.approx(expected, rel=3e-3)
+@pytest.mark.parametrize("height", [0.02, 0.2, 0.45, 0.49, 1.0])
+def test_a_disc_gives_its_form_factor(height: float) -> None:
+    expected = 0.5 * 0.5**2 / (0.5**2 + height**2)
+    scene = new_scene([GREY], lights=[area_light(ELLIPSE, 0.5, height)])
+    add_object(scene, make_floor(10.0))
+    settings = Settings(16, 16, samples=1024, bounces=0)
+    pixels = picture(scene, settings, Camera(eye=(0.0, 0.0, 0.01), half_width=1e-3))
+    assert pixels[..., :3].mean() == pytest.approx(expected, rel=3e-3)
+
+
+@pytest.mark.parametrize(("x", "height"), [(2.0, 0.5), (4.5, 0.1), (7.9, 3.0), (8.1, 3.0), (30.0, 3.0)])
+@pytest.mark.parametrize("turn", [0.0, 0.5])
+def test_a_rectangle_lights_a_point_beside_it(x: float, height: float, turn: float) -> None:
+    """By the integral over a fine grid, however near; of a skewed one too."""
+    light = area_light(RECTANGLE, 1.0, height)
+    light.axis_v_x = turn
+    a, b = np.meshgrid(*2 * [(np.arange(800) + 0.5) / 400 - 1.0])
+    d2 = (a + turn * b - x) ** 2 + b**2 + height**2
+    expected = 0.5 / np.pi * 4.0 * np.mean(height**2 / d2**2)
+    scene = new_scene([GREY], lights=[light])
+    add_object(scene, make_floor(100.0))
+    settings = Settings(16, 16, samples=1024, bounces=0)
+    pixels = picture(scene, settings, Camera(eye=(x, 0.0, 0.02), half_width=1e-3))
+    assert pixels[..., :3].mean() == pytest.approx(expected, rel=1e-3)
 
 
 def test_an_area_light_shines_to_one_side_only() -> None:
