@@ -267,6 +267,21 @@ def hdri() -> Stage:
     return stage
 
 
+def sky(repeated: bool, elevation: float) -> Stage:
+    """Blender's Sky Texture with its sun; `repeated` scatters more than once where it can."""
+    stage = plain_stage()
+    background = stage.set_world((1.0, 1.0, 1.0), 0.1)
+    tree = stage.scene.world.node_tree
+    texture = tree.nodes.new("ShaderNodeTexSky")
+    kinds = [item.identifier for item in texture.bl_rna.properties["sky_type"].enum_items]
+    single = "SINGLE_SCATTERING" if "SINGLE_SCATTERING" in kinds else "NISHITA"
+    texture.sky_type = "MULTIPLE_SCATTERING" if repeated and "MULTIPLE_SCATTERING" in kinds else single
+    texture.sun_elevation, texture.sun_rotation, texture.altitude = elevation, 2.5, 100.0
+    texture.sun_intensity = 0.5
+    tree.links.new(texture.outputs["Color"], background.inputs["Color"])
+    return stage
+
+
 def many_lights() -> Stage:
     stage = plain_stage()
     random = np.random.default_rng(5)
@@ -301,6 +316,9 @@ def light_scenes() -> dict[str, Any]:
         "emissive mesh": emissive_mesh,
         "world": world_only,
         "hdri": hdri,
+        "sky single": lambda: sky(False, 0.6),
+        "sky low": lambda: sky(False, 0.05),
+        "sky multiple": lambda: sky(True, 0.6),
         "many lights": many_lights,
     }
 

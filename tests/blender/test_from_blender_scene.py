@@ -243,3 +243,40 @@ def test_geometry_nodes_instances_arrive_as_one_group(scene):
         scene.collection.objects.link(empty)
     (instance,) = read(scene).instances
     assert sorted(instance.transforms[:, 0, 3].tolist()) == [1.0, 4.0]
+
+
+@pytest.mark.parametrize("kind", ["single", "multiple", "PREETHAM"])
+def test_a_sky_texture_is_an_environment_and_a_sun(scene, kind):
+    scene.world = bpy.data.worlds.new("world")
+    scene.world.use_nodes = True
+    tree = scene.world.node_tree
+    background = next(node for node in tree.nodes if node.type == "BACKGROUND")
+    background.inputs["Strength"].default_value = 0.5
+    node = tree.nodes.new("ShaderNodeTexSky")
+    kinds = [item.identifier for item in node.bl_rna.properties["sky_type"].enum_items]
+    names = {"single": ("NISHITA", "SINGLE_SCATTERING"), "multiple": ("MULTIPLE_SCATTERING",)}
+    found = [name for name in names.get(kind, (kind,)) if name in kinds]
+    if not found:
+        pytest.skip(f"this Blender has no sky {kind}")
+    node.sky_type = found[0]
+    node.sun_elevation, node.sun_rotation = 0.4, 1.1
+    tree.links.new(node.outputs["Color"], background.inputs["Color"])
+    arrays = read(scene)
+    assert arrays.environment is not None and np.isfinite(arrays.environment.pixels).all()
+    assert arrays.environment.pixels.max() > 0.0
+    if kind == "PREETHAM":
+        assert arrays.lights == [] and any("PREETHAM" in warning for warning in arrays.warnings)
+        return
+    (sun,) = arrays.lights
+    # As in Cycles: towards +y at rotation 0, turned to +x.
+    towards = (math.cos(0.4) * math.sin(1.1), math.cos(0.4) * math.cos(1.1), math.sin(0.4))
+    assert (sun.direction_x, sun.direction_y, sun.direction_z) == pytest.approx(towards, abs=1e-6)
+    assert sun.seen == 1.0 and sun.color_r > sun.color_b > 0.0
+    # The sky about the sun is its brightest part.
+    environment = arrays.environment
+    row, column = np.unravel_index(environment.pixels.sum(axis=2).argmax(), environment.pixels.shape[:2])
+    height, width = environment.pixels.shape[:2]
+    longitude = (0.5 - (column + 0.5) / width) * 2.0 * math.pi
+    x, y, _ = environment.rotation @ np.array(towards)
+    assert math.cos(longitude - math.atan2(y, x)) > 0.99
+    assert not [warning for warning in arrays.warnings if "sky" in warning.lower()]

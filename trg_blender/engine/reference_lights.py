@@ -114,6 +114,15 @@ def hit_sun(light: Light, direction: Float64, t_surface: Float64) -> LightHit:
     return LightHit(inside[:, None] * color_of(light) * per_irradiance, pdf, np.full(len(pdf), np.inf))
 
 
+def suns_seen(lights: list[Light], direction: Float64) -> Float64:
+    """(n, 3) what camera rays that leave the scene see of suns that belong to the environment."""
+    total = np.zeros_like(direction)
+    for light in lights:
+        if light.seen > 0.5 and LIGHT_KINDS[light.kind] == "sun" and light.angle > 0.0:
+            total += hit_sun(light, direction, np.full(len(direction), np.inf)).radiance
+    return total
+
+
 # Points and spots
 
 

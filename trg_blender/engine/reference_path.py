@@ -15,7 +15,7 @@ from .reference_camera import CameraRays
 from .reference_closures import choose_closures
 from .reference_emission import Glow, build_glow, pdf_glow, sample_glow
 from .reference_environment import Sky, build_sky, evaluate_sky, pdf_sky, sample_sky
-from .reference_lights import LightSample, hit_light, sample_light
+from .reference_lights import LightSample, hit_light, sample_light, suns_seen
 from .reference_math import dot, mis_weight
 from .reference_media import (
     Stack,
@@ -259,6 +259,8 @@ def collect_world(world: World, paths: Paths, hits: Hits, estimate: Estimate, se
         direction = paths.rays.direction[missed]
         weight = mis_weight(paths.pdf[missed], pdf_sky(world.sky, direction))[:, None]
         light = evaluate_sky(world.sky, direction) * weight
+        if segment == 0:
+            light = light + suns_seen(world.scene.lights, direction)
     else:
         light = world.color
     add_light(estimate, paths.index[missed], paths.throughput[missed] * light, segment, "environment")

@@ -253,6 +253,8 @@ class Light:
     """area: full angle of the cone that it shines into, radians; pi is all of its side"""
     soft: float = 0.0
     """point and spot: 1 for a disc that faces whoever it lights instead of a sphere"""
+    seen: float = 0.0
+    """sun with angle: 1 for one that the camera sees wherever it sees the environment"""
 
 
 MATERIAL_FIELDS = tuple(f.name for f in fields(Material))

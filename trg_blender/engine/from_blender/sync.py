@@ -90,6 +90,8 @@ class SceneReader:
         meshes.store = known.meshes
         meshes.add_all(found)
         known.end()
+        if world.sun is not None:
+            arrays.lights.append(world.sun)
         for owner, row in found.lights:
             light = read_light(owner, _matrix(found.transforms[row]), warnings)
             if light is not None:

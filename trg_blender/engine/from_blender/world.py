@@ -1,4 +1,4 @@
-"""Blender's world -> one constant radiance, or an equirectangular picture."""
+"""Blender's world -> one constant radiance, or an equirectangular picture and perhaps a sun."""
 
 from __future__ import annotations
 
@@ -8,13 +8,11 @@ import bpy
 import numpy as np
 from mathutils import Euler
 
-from ..scene_arrays import Color, Environment, Float32, Float64
+from ..scene_arrays import Color, Environment, Float32, Float64, Light
+from .sky import place_sun, read_sky
 from .sockets import active_tree, as_color, as_number, constant_of, feeding_socket
 
 BLACK: Color = (0.0, 0.0, 0.0)
-SKY_MEAN: Color = (0.24, 0.36, 0.55)
-"""Stands in for a Sky Texture, which Blender computes for its own engines only: about the mean over the
-upper half of the default one without its disc."""
 LARGEST_RADIANCE = 1e30
 
 
@@ -25,6 +23,8 @@ class WorldLight:
     color: Color
     """constant radiance, where there is no environment"""
     environment: Environment | None = None
+    sun: Light | None = None
+    """that of a sky"""
 
 
 def read_world(world: bpy.types.World | None, warnings: list[str]) -> WorldLight:
@@ -49,6 +49,8 @@ def read_world(world: bpy.types.World | None, warnings: list[str]) -> WorldLight
     picture = feeding_socket(source.node.inputs["Color"])
     if picture is not None and picture.node.type == "TEX_ENVIRONMENT":
         return _read_environment(world, picture.node, strength, warnings)
+    if picture is not None and picture.node.type == "TEX_SKY":
+        return _read_sky(world, picture.node, strength, warnings)
     red, green, blue = as_color(_constant(source.node.inputs["Color"], world.name, warnings))
     return WorldLight((red * strength, green * strength, blue * strength))
 
@@ -57,12 +59,6 @@ def _constant(socket: bpy.types.NodeSocket, name: str, warnings: list[str]) -> o
     source = feeding_socket(socket)
     if source is None:
         return socket.default_value
-    if source.node.type == "TEX_SKY":
-        warnings.append(
-            f"world {name!r}: node {source.node.name!r} (Sky Texture) is rendered as one even colour; "
-            f"bake it to an image for an Environment Texture node"
-        )
-        return SKY_MEAN
     value = constant_of(source)
     if value is None:
         warnings.append(
@@ -89,11 +85,29 @@ def _read_environment(
     if not np.isfinite(pixels).all():
         warnings.append(f"{where}: pixels that are not finite are rendered black")
         pixels = np.where(np.isfinite(pixels), pixels, 0.0)
-    with np.errstate(over="ignore"):
-        scaled = np.clip(pixels * np.float32(strength), -LARGEST_RADIANCE, LARGEST_RADIANCE)
-    seen = bool(world.cycles_visibility.camera) if hasattr(world, "cycles_visibility") else True
     rotation = _rotation(node, where, warnings)
-    return WorldLight(BLACK, Environment(scaled.astype(np.float32), rotation, seen, node.image.name))
+    return WorldLight(
+        BLACK, Environment(_scaled(pixels, strength), rotation, _is_seen(world), node.image.name)
+    )
+
+
+def _scaled(pixels: Float32, strength: float) -> Float32:
+    with np.errstate(over="ignore"):
+        return np.clip(pixels * np.float32(strength), -LARGEST_RADIANCE, LARGEST_RADIANCE).astype(np.float32)
+
+
+def _is_seen(world: bpy.types.World) -> bool:
+    return bool(world.cycles_visibility.camera) if hasattr(world, "cycles_visibility") else True
+
+
+def _read_sky(
+    world: bpy.types.World, node: bpy.types.Node, strength: float, warnings: list[str]
+) -> WorldLight:
+    where = f"world {world.name!r}: node {node.name!r}"
+    pixels, turn, sun = read_sky(node, where, warnings)
+    rotation = turn @ _rotation(node, where, warnings)
+    environment = Environment(_scaled(pixels, strength), rotation, _is_seen(world), node.name)
+    return WorldLight(BLACK, environment, None if sun is None else place_sun(sun, rotation, strength))
 
 
 def _radiance(image: bpy.types.Image | None) -> Float32 | None:
@@ -114,7 +128,8 @@ def _radiance(image: bpy.types.Image | None) -> Float32 | None:
 def _rotation(node: bpy.types.Node, where: str, warnings: list[str]) -> Float64:
     """(3, 3) what Mapping nodes before `node` do to a direction, as far as it is a rotation."""
     rotation = np.eye(3)
-    source = feeding_socket(node.inputs["Vector"])
+    socket = node.inputs.get("Vector")
+    source = None if socket is None else feeding_socket(socket)
     while source is not None and source.node.type == "MAPPING":
         rotation = rotation @ _mapping_rotation(source.node, where, warnings)
         source = feeding_socket(source.node.inputs["Vector"])
