@@ -152,8 +152,9 @@ class TRGRenderEngine(bpy.types.RenderEngine):
         self.update_stats("TRG", status_of(viewport.tracer, depsgraph.scene))
 
     def __del__(self) -> None:
-        if self.viewport is not None:
-            self.viewport.close()
+        with contextlib.suppress(ReferenceError):  # Blender has freed its part first
+            if self.viewport is not None:
+                self.viewport.close()
 
     def _viewport(self) -> Viewport:
         if self.viewport is None:
