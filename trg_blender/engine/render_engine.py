@@ -31,7 +31,7 @@ from .report import Progress, format_progress, with_source
 from .result import Failure, border_of, records, register_passes, stamp_mattes, wanted_passes, write_pixels
 from .run_text import ENGINE_ID
 from .scene_arrays import Float32, RenderSettings, SceneArrays
-from .shots import shots
+from .shots import RESULT, shots
 from .to_blender import requested_modes
 from .viewport import Viewport, close_all, shown_errors, status_of
 
@@ -232,8 +232,8 @@ class TRGRenderEngine(bpy.types.RenderEngine):
         report = with_source(outcome.report, frame.file, frame.number, frame.seconds)
         self._stamp(frame, result.layers[0].name, report)
         records.keep_report(frame.scene_name, report)
-        if not self.is_preview:
-            shots.keep(frame.scene_name, (frame.arrays, frame.settings), outcome)
+        if not (self.is_preview or bpy.app.background):
+            shots.keep(frame.scene_name, active_slot(), (frame.arrays, frame.settings), outcome)
         if interrupted:
             raise RenderCancelled
         return self.test_break()
@@ -287,6 +287,12 @@ def blend_with_last(
     if frame is None:
         return outcome.pixels, 0
     return blend_frames(frame, records.exchange_frame(scene_name, frame))
+
+
+def active_slot() -> int:
+    """The slot that renders go into, counted from 0."""
+    image = bpy.data.images.get(RESULT)
+    return 0 if image is None else int(image.render_slots.active_index)
 
 
 def choose_antialiasing(

@@ -9,8 +9,6 @@ from __future__ import annotations
 import threading
 from dataclasses import dataclass, field
 
-import bpy
-
 from .probe import Shot, standard_error_of
 from .scene_arrays import Float32, RenderSettings, SceneArrays
 from .session import Result
@@ -26,16 +24,16 @@ class ShotStore:
     _slots: dict[int, Float32] = field(default_factory=dict)
     _lock: threading.Lock = field(default_factory=threading.Lock)
 
-    def keep(self, scene_name: str, made_of: tuple[SceneArrays, RenderSettings], result: Result) -> None:
-        """Remember a picture; nothing in background, where nobody looks."""
-        if bpy.app.background:
-            return
+    def keep(
+        self, scene_name: str, slot: int, made_of: tuple[SceneArrays, RenderSettings], result: Result
+    ) -> None:
+        """Remember a picture that went into a render slot, counted from 0."""
         samples = float(result.report["samples"])
         error = standard_error_of(result.replicate_sums, result.replicate_counts)
         shot = Shot(*made_of, result.pixels, error, samples)
         with self._lock:
             self._last[scene_name] = shot
-            self._slots[active_slot()] = result.pixels
+            self._slots[slot] = result.pixels
 
     def last_of(self, scene_name: str) -> Shot | None:
         with self._lock:
@@ -58,9 +56,3 @@ class ShotStore:
 
 
 shots = ShotStore()
-
-
-def active_slot() -> int:
-    """The slot that renders go into."""
-    image = bpy.data.images.get(RESULT)
-    return 0 if image is None else int(image.render_slots.active_index)
