@@ -32,6 +32,20 @@ def test_table_chart_and_page(tmp_path: Path) -> None:
     assert not re.search(r'(?:src|href)="(?!data:)', page)
 
 
+def test_antialiasing_methods_are_compared_with_one_reference_for_each_filter(tmp_path: Path) -> None:
+    words = ["report", str(HELLO), "--size", "24x16", "--times", "0.1,0.2", "--seeds", "1"]
+    words += ["--integrators", "classic", "--aas", "none,supersampling:2,supersampling:8,sobol,gaussian"]
+    assert cli.main([*words, "--out", str(tmp_path)]) == 0
+    with (tmp_path / "curves.csv").open(encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    last = {row["aa"]: float(row["rmse"]) for row in rows}
+    assert last.keys() == {"none", "supersampling:2", "supersampling:8", "sobol", "gaussian"}
+    assert last["none"] > last["supersampling:2"] > last["supersampling:8"]
+    page = (tmp_path / "report.html").read_text(encoding="utf-8")
+    assert "classic, box: cpu" in page
+    assert "classic, gaussian: cpu" in page
+
+
 def test_a_reference_of_another_size_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     import bpy
 
@@ -52,6 +66,9 @@ def test_a_reference_of_another_size_is_refused(tmp_path: Path, capsys: pytest.C
         ["--target", "-1"],
         ["--devices", ""],
         ["--seeds", "0"],
+        ["--aas", "fine"],
+        ["--aas", "supersampling:0"],
+        ["--aas", ","],
     ],
 )
 def test_wrong_usage_is_2(words: list[str], capsys: pytest.CaptureFixture[str]) -> None:

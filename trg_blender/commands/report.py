@@ -1,4 +1,4 @@
-"""`trg report`: error against run time of one scene, by device, accelerator, integrator and triangle test."""
+"""`trg report`: error against run time of a scene, by device, accelerator, integrator, test, antialiasing."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from .. import cli
 from ..engine.devices import DEVICE_NAMES, INTEGRATORS, require_device
 from ..engine.native import ACCELERATORS, TRIANGLE_TESTS
 from ..engine.report import ENDLESS_SAMPLES
+from ..engine.scene_arrays import RenderSettings
 from .render import RenderCommand, RenderFailed, at_least, load_bpy, positive_number, size_of, source_path
 from .render import add_parser as add_render_parser
 from .render_output import blender_chatter_off
@@ -38,6 +39,14 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add("--integrators", type=_list_of(INTEGRATORS), default=["path"], metavar="A,B")
     add(
         "--tests", type=_list_of(TRIANGLE_TESTS), default=["watertight"], metavar="A,B", help="triangle tests"
+    )
+    add(
+        "--aas",
+        type=_antialiasings,
+        default=[""],
+        metavar="A,B",
+        help="none, supersampling, jittering, mfaa, sobol, each with :N for a grid of N x N cells, or the "
+        "filters box, gaussian, blackman_harris with Sobol's points; else the scene's own",
     )
     add("--times", type=_times, default=[0.5, 1.0, 2.0, 4.0], metavar="S,S", help="seconds; 0.5,1,2,4")
     add("--seeds", type=at_least(1), default=3, metavar="N", help="renders of each combination; 3")
@@ -81,7 +90,7 @@ class Measured:
     size: tuple[int, int]
     points: list[Any]
     references: dict[str, str]
-    """integrator -> where its reference comes from"""
+    """integrator and pixel filter -> where their reference comes from"""
     target: float | None
 
 
@@ -93,12 +102,13 @@ def measure(args: argparse.Namespace, out: Any) -> Measured:
     references: dict[str, str] = {}
     truths: dict[str, Any] = {}
     for variant in variants_of(args):
-        if variant.integrator not in truths:
-            truth, origin = reference_for(args, scene, variant.apply(settings), out)
-            truths[variant.integrator], references[variant.integrator] = truth, origin
+        chosen = variant.apply(settings)
+        wanted = f"{variant.integrator}, {chosen.pixel_filter}"
+        if wanted not in truths:
+            truths[wanted], references[wanted] = reference_for(args, scene, chosen, out)
         for seed in range(1, args.seeds + 1):
             seeded = replace(settings, seed=seed)
-            curve = measure_curve(scene, seeded, args.times, truths[variant.integrator], variant)
+            curve = measure_curve(scene, seeded, args.times, truths[wanted], variant)
             for point in curve:
                 points.append(point)
                 out.write(
@@ -115,13 +125,13 @@ def variants_of(args: argparse.Namespace) -> Iterator[Any]:
     from ..engine.error_curves import Variant
 
     seen = set()
-    for device, accel, integrator, test in itertools.product(
-        args.devices, args.accels, args.integrators, args.tests
+    for device, accel, integrator, test, aa in itertools.product(
+        args.devices, args.accels, args.integrators, args.tests, args.aas
     ):
         variant = (
-            Variant(device, accel, integrator, test)
+            Variant(device, accel, integrator, test, aa)
             if device != "embree"
-            else Variant(device, "auto", integrator)
+            else Variant(device, "auto", integrator, aa=aa)
         )
         if variant not in seen:
             seen.add(variant)
@@ -135,7 +145,7 @@ def reference_for(args: argparse.Namespace, scene: Any, settings: Any, out: Any)
 
     if args.reference is not None:
         return read_reference(args.reference, (settings.height, settings.width)), str(args.reference)
-    longest = replace(settings, device="cpu", samples=ENDLESS_SAMPLES, seconds=args.times[-1])
+    longest = replace(settings, device="cpu", samples=ENDLESS_SAMPLES, seconds=args.times[-1], aa="sobol")
     probe = session.render(scene, longest)
     samples = max(REFERENCE_FACTOR * int(probe.report["samples"]), 256)
     out.write(f"reference of {settings.integrator}: {samples} samples\n")
@@ -191,7 +201,7 @@ def write_table(path: Path, points: list[Any]) -> None:
     with path.open("w", newline="", encoding="utf-8") as file:
         table = csv.writer(file)
         table.writerow(
-            "device accel integrator triangle_test seed seconds samples rmse stated low high".split()
+            "device accel integrator triangle_test aa seed seconds samples rmse stated low high".split()
         )
         for p in points:
             v = p.variant
@@ -201,6 +211,7 @@ def write_table(path: Path, points: list[Any]) -> None:
                     v.accel,
                     v.integrator,
                     v.triangle_test,
+                    v.aa,
                     p.seed,
                     f"{p.seconds:.6g}",
                     f"{p.samples:g}",
@@ -218,6 +229,20 @@ def _list_of(known: tuple[str, ...]) -> Any:
         return found
 
     return words
+
+
+def _antialiasings(text: str) -> list[str]:
+    from ..engine.error_curves import with_antialiasing
+
+    found = [word.strip() for word in text.split(",") if word.strip()]
+    if not found:
+        raise argparse.ArgumentTypeError(f"{text!r} names no method")
+    for word in found:
+        try:
+            with_antialiasing(RenderSettings(1, 1), word)
+        except ValueError as refusal:
+            raise argparse.ArgumentTypeError(str(refusal)) from refusal
+    return found
 
 
 def _times(text: str) -> list[float]:

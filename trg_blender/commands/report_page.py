@@ -100,7 +100,7 @@ that the renders state of themselves; lines are fitted to the dots.</p>
 
 
 def summary_table(measured: Any) -> str:
-    heads = ["device / accelerator / integrator / test", "slope", "RMSE after 1 s", "intervals that hold"]
+    heads = ["what is compared", "slope", "RMSE after 1 s", "intervals that hold"]
     if measured.target is not None:
         heads.append(f"seconds to {measured.target:g}")
     rows = []

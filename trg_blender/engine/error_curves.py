@@ -14,10 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from . import session
+from .antialiasing import ANTIALIASINGS, FINEST_GRID
 from .image_error import STUDENT_95, rmse
-from .scene_arrays import Float64, RenderSettings, SceneArrays
+from .scene_arrays import PIXEL_FILTERS, Float64, RenderSettings, SceneArrays
 
 POLL_SECONDS = 0.005
+BELL_WIDTH = 1.5
+"""pixels: Blender's width of filters other than the box"""
 TRUTH_SEED = 0x7EF3
 STUDENT_MANY = 1.96
 
@@ -30,19 +33,37 @@ class Variant:
     accel: str = "auto"
     integrator: str = "path"
     triangle_test: str = "watertight"
+    aa: str = ""
+    """antialiasing: METHOD, METHOD:SIDE, or a pixel filter; empty: the scene's own"""
 
     @property
     def name(self) -> str:
-        return " / ".join((self.device, self.accel, self.integrator, self.triangle_test))
+        parts = (self.device, self.accel, self.integrator, self.triangle_test, self.aa)
+        return " / ".join(part for part in parts if part)
 
     def apply(self, settings: RenderSettings) -> RenderSettings:
         return replace(
-            settings,
+            with_antialiasing(settings, self.aa),
             device=self.device,
             accel=self.accel,
             integrator=self.integrator,
             triangle_test=self.triangle_test,
         )
+
+
+def with_antialiasing(settings: RenderSettings, choice: str) -> RenderSettings:
+    """`choice` is a Variant's `aa`. Raises ValueError for what is none."""
+    if not choice:
+        return settings
+    name, _, side = choice.partition(":")
+    if side and not (side.isdecimal() and 1 <= int(side) <= FINEST_GRID):
+        raise ValueError(f"{choice}: a pixel's side has 1 to {FINEST_GRID} cells")
+    if name in PIXEL_FILTERS and not side:
+        width = 1.0 if name == "box" else BELL_WIDTH
+        return replace(settings, aa="sobol", pixel_filter=name, filter_width=width)
+    if name not in ANTIALIASINGS:
+        raise ValueError(f"{choice}: choose from {', '.join((*ANTIALIASINGS, *PIXEL_FILTERS))}")
+    return replace(settings, aa=name, aa_side=int(side or settings.aa_side))
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,8 +101,12 @@ class Fit:
 
 
 def make_reference(scene: SceneArrays, settings: RenderSettings, samples: int) -> Float64:
-    """(h, w, 3): the picture of `samples` samples on the CPU, with a seed that no curve uses."""
-    long = replace(settings, samples=samples, seconds=0.0, rmse=0.0, adaptive=False, seed=TRUTH_SEED)
+    """(h, w, 3): the picture of `samples` samples on the CPU, with a seed that no curve uses.
+
+    Its points are Sobol's through the pixel filter of `settings`, whatever their antialiasing.
+    """
+    long = replace(settings, samples=samples, seconds=0.0, rmse=0.0, adaptive=False)
+    long = replace(long, seed=TRUTH_SEED, aa="sobol")
     return session.render(scene, replace(long, device="cpu")).pixels[..., :3].astype(np.float64)
 
 
