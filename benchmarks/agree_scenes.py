@@ -8,6 +8,7 @@ from typing import Any
 import bpy
 import numpy as np
 
+from .agree_limits import limit_scenes
 from .agree_stage import (
     Build,
     Stage,
@@ -443,4 +444,11 @@ def whole_scenes() -> dict[str, Any]:
 
 def scenes() -> dict[str, Build]:
     """Name -> a function that sets up the open file and gives its stage."""
-    return {**material_scenes(), **texture_scenes(), **light_scenes(), **camera_scenes(), **whole_scenes()}
+    return {
+        **material_scenes(),
+        **texture_scenes(),
+        **light_scenes(),
+        **camera_scenes(),
+        **whole_scenes(),
+        **limit_scenes(closed_box),
+    }

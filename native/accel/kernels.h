@@ -11,7 +11,7 @@ struct WorldIndex;
 
 struct RayBatch {
     const Ray* rays;
-    const float* times;  // one a ray; null: all in the middle of the shutter
+    RayTags tags;
     int count;
 };
 
@@ -19,7 +19,7 @@ struct Kernels {
     void (*closest)(const WorldIndex& index, const RayBatch& batch, Hit* hits);
     void (*any)(const WorldIndex& index, const RayBatch& batch, uint8_t* hidden);
     /// What `ray` meets at `time` next behind a hit of its own.
-    Hit (*beyond)(const WorldIndex& index, const Ray& ray, float time, const Hit& met);
+    Hit (*beyond)(const WorldIndex& index, const Ray& ray, RayTag tag, const Hit& met);
 };
 
 namespace baseline {

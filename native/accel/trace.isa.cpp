@@ -19,7 +19,7 @@ struct ClosestQuery {
     const float* times;  // null: all in the middle of the shutter
     Hit* hits;
 
-    void alone(int k) const { hits[k] = closest_hit<Block>(index, rays[k], time_of(times, k)); }
+    void alone(int k) const { hits[k] = closest_hit<Block>(index, rays[k], {time_of(times, k)}); }
     bool together(int k) const {
         return closest_hits(index, rays + k, times ? times + k : nullptr, hits + k);
     }
@@ -45,7 +45,7 @@ struct AnyQuery {
     const float* times;
     uint8_t* hidden;
 
-    void alone(int k) const { hidden[k] = is_hidden<Block>(index, rays[k], time_of(times, k)); }
+    void alone(int k) const { hidden[k] = is_hidden<Block>(index, rays[k], {time_of(times, k)}); }
     bool together(int k) const {
         return are_hidden(index, rays + k, times ? times + k : nullptr, hidden + k);
     }
@@ -84,16 +84,27 @@ TRG_FN void trace_batch(const Query& query, int count) {
     trace_stream<Block>(query, waiting, waiters);
 }
 
+TRG_FN RayTag tag_of(const RayTags& tags, int k) {
+    return {time_of(tags.times, k), tags.masks ? tags.masks[k] : kEveryRay};
+}
+
+/// Rays that not everything is visible to go one by one.
 template <class Block>
 TRG_FN void trace_closest(const WorldIndex& index, const RayBatch& batch, Hit* hits) {
-    const float* times = index.moving ? batch.times : nullptr;
-    trace_batch<Block>(ClosestQuery<Block>{index, batch.rays, times, hits}, batch.count);
+    const float* times = index.moving ? batch.tags.times : nullptr;
+    if (!index.masked)
+        return trace_batch<Block>(ClosestQuery<Block>{index, batch.rays, times, hits}, batch.count);
+    for (int k = 0; k < batch.count; ++k)
+        hits[k] = closest_hit<Block>(index, batch.rays[k], tag_of(batch.tags, k));
 }
 
 template <class Block>
 TRG_FN void trace_any(const WorldIndex& index, const RayBatch& batch, uint8_t* hidden) {
-    const float* times = index.moving ? batch.times : nullptr;
-    trace_batch<Block>(AnyQuery<Block>{index, batch.rays, times, hidden}, batch.count);
+    const float* times = index.moving ? batch.tags.times : nullptr;
+    if (!index.masked)
+        return trace_batch<Block>(AnyQuery<Block>{index, batch.rays, times, hidden}, batch.count);
+    for (int k = 0; k < batch.count; ++k)
+        hidden[k] = is_hidden<Block>(index, batch.rays[k], tag_of(batch.tags, k));
 }
 
 TRG_FN void find_closest(const WorldIndex& index, const RayBatch& batch, Hit* hits) {
@@ -110,10 +121,10 @@ TRG_FN void find_any(const WorldIndex& index, const RayBatch& batch, uint8_t* hi
         trace_any<CornerBlock>(index, batch, hidden);
 }
 
-TRG_FN Hit find_beyond(const WorldIndex& index, const Ray& ray, float time, const Hit& met) {
+TRG_FN Hit find_beyond(const WorldIndex& index, const Ray& ray, RayTag tag, const Hit& met) {
     return index.triangle_test == TriangleTest::classic
-               ? hit_beyond<PlaneBlock>(index, ray, time, met)
-               : hit_beyond<CornerBlock>(index, ray, time, met);
+               ? hit_beyond<PlaneBlock>(index, ray, tag, met)
+               : hit_beyond<CornerBlock>(index, ray, tag, met);
 }
 
 Kernels trace_kernels() {

@@ -82,6 +82,7 @@ TRG_FN bool is_representable(const TracedRay& local) {
 
 template <class Block, class AnySearch>
 TRG_FN void search_placement(const Placement& placement, const TracedRay& ray, AnySearch& search) {
+    if (!(placement.mask & ray.mask)) return;
     search.current = &placement;
     if (placement.soup->shape != Shape::triangles)
         test_closest(placement, ray, search);
@@ -104,6 +105,7 @@ TRG_FN void search_world(const WorldIndex& index, const TracedRay& ray, AnySearc
 
 template <class Block>
 TRG_FN bool placement_hides(const Placement& placement, const TracedRay& ray, float t_max) {
+    if (!(placement.mask & ray.mask)) return false;
     if (placement.soup->shape != Shape::triangles) return test_any(placement, ray, t_max);
     if (placement.identity) return soup_hides<Block>(*placement.soup, ray, t_max);
     const TracedRay local = enter_placement(placement, ray);
@@ -116,7 +118,7 @@ TRG_FN bool world_hides(const WorldIndex& index, const TracedRay& ray, float t_m
         return placement_hides<Block>(index.placements[k], ray, t_max);
     };
     for (const Placement& plane : index.unbounded)
-        if (test_any(plane, ray, t_max)) return true;
+        if (placement_hides<Block>(plane, ray, t_max)) return true;
     if (index.placements.size() == 1) return visit(0);
     const float limit = t_max * kFarFactor;
     return walk_tree<false>(index.top, ray, &limit, visit);
@@ -170,11 +172,12 @@ TRG_FN bool is_empty(const WorldIndex& index) {
 }
 
 template <class Block>
-TRG_FN Hit closest_hit(const WorldIndex& index, const Ray& ray, float time = kMiddleTime) {
+TRG_FN Hit closest_hit(const WorldIndex& index, const Ray& ray, RayTag tag = {}) {
     if (!is_traceable(ray) || is_empty(index)) return no_hit();
     const ScaledRay scaled = scale_ray(ray);
     TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
-    traced.time = time;
+    traced.time = tag.time;
+    traced.mask = tag.mask;
     Search search = start_search(scaled.ray.t_max);
     search_world<Block>(index, traced, search);
     return resolve_hit<Block>(search, traced, scaled.scale);
@@ -182,24 +185,26 @@ TRG_FN Hit closest_hit(const WorldIndex& index, const Ray& ray, float time = kMi
 
 /// What the ray meets next behind `met`, which it met before.
 template <class Block>
-TRG_FN Hit hit_beyond(const WorldIndex& index, const Ray& ray, float time, const Hit& met) {
+TRG_FN Hit hit_beyond(const WorldIndex& index, const Ray& ray, RayTag tag, const Hit& met) {
     if (!is_traceable(ray) || is_empty(index)) return no_hit();
     const ScaledRay scaled = scale_ray(ray);
     const float after = met.t * scaled.scale;
     TracedRay traced =
         prepare_ray(scaled.ray.origin, scaled.ray.direction, std::nextafter(after, 0.0f));
-    traced.time = time;
+    traced.time = tag.time;
+    traced.mask = tag.mask;
     SearchBeyond search{start_search(scaled.ray.t_max), after, {met.instance, met.triangle}};
     search_world<Block>(index, traced, search);
     return resolve_hit<Block>(search, traced, scaled.scale);
 }
 
 template <class Block>
-TRG_FN bool is_hidden(const WorldIndex& index, const Ray& ray, float time = kMiddleTime) {
+TRG_FN bool is_hidden(const WorldIndex& index, const Ray& ray, RayTag tag = {}) {
     if (!is_traceable(ray) || is_empty(index)) return false;
     const ScaledRay scaled = scale_ray(ray);
     TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
-    traced.time = time;
+    traced.time = tag.time;
+    traced.mask = tag.mask;
     return world_hides<Block>(index, traced, scaled.ray.t_max);
 }
 

@@ -25,6 +25,7 @@ struct TracedRay : ExactRay {
     int sign[3];       // 1 where the direction is negative: the high plane is near
     float t_min;
     float time;              // 0 to 1 while the shutter is open
+    uint8_t mask;            // of instances that it meets
     int kx, ky, kz;          // kz: the axis along which the direction is longest
     float shear_x, shear_y;  // direction[kx], direction[ky] over direction[kz]
 };
@@ -41,6 +42,7 @@ TRG_INLINE_FN TracedRay prepare_ray(Vec3 origin, Vec3 direction, float t_min) {
     }
     ray.t_min = t_min;
     ray.time = kMiddleTime;
+    ray.mask = kEveryRay;
     // Without branches: which axis is longest is anyone's guess.
     constexpr int kNext[4] = {1, 2, 0, 0};
     const float x = std::fabs(d[0]), y = std::fabs(d[1]), z = std::fabs(d[2]);

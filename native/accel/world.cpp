@@ -59,25 +59,32 @@ void set_motion(World& world, int number, const std::vector<Transform>& keys) {
     world.index.reset();
     const auto count = static_cast<int32_t>(keys.size());
     Instance& instance = world.instances[number];
+    const uint8_t mask = instance.mask;
     instance = make_instance(instance.mesh, transform_at(keys.data(), count, kMiddleTime));
+    instance.mask = mask;
     instance.identity = false;  // never merged with what stands still
     instance.key_count = count;
     instance.first_key = static_cast<int64_t>(world.motion_keys.size());
     world.motion_keys.insert(world.motion_keys.end(), keys.begin(), keys.end());
 }
 
-void intersect_closest(const World& world, const Ray* rays, Hit* hits, int count,
-                       const float* times) {
-    world.index->kernels.closest(*world.index, {rays, times, count}, hits);
+void set_mask(World& world, int number, uint8_t mask) {
+    world.index.reset();
+    world.instances[number].mask = mask;
 }
 
-Hit intersect_beyond(const World& world, const Ray& ray, float time, const Hit& met) {
-    return world.index->kernels.beyond(*world.index, ray, time, met);
+void intersect_closest(const World& world, const Ray* rays, Hit* hits, int count,
+                       const RayTags& tags) {
+    world.index->kernels.closest(*world.index, {rays, tags, count}, hits);
+}
+
+Hit intersect_beyond(const World& world, const Ray& ray, RayTag tag, const Hit& met) {
+    return world.index->kernels.beyond(*world.index, ray, tag, met);
 }
 
 void intersect_any(const World& world, const Ray* rays, uint8_t* hidden, int count,
-                   const float* times) {
-    world.index->kernels.any(*world.index, {rays, times, count}, hidden);
+                   const RayTags& tags) {
+    world.index->kernels.any(*world.index, {rays, tags, count}, hidden);
 }
 
 }  // namespace trg

@@ -37,6 +37,7 @@ struct Instance {
     Transform world_to_object;
     int32_t key_count = 0;  // of one that moves, its keys in World::motion_keys; else 0
     int64_t first_key = 0;
+    uint8_t mask = kEveryRay;  // rays that share no bit with it do not meet it
 };
 
 struct BuildStats {
@@ -108,18 +109,21 @@ UpdateStats move_instances(World& world, int first, const std::vector<Transform>
 /// index is built anew when its cost has grown by half, or when it has no tree.
 UpdateStats move_vertices(World& world, int mesh, std::vector<Vec3> vertices, int threads);
 
+/// Makes instance `number` invisible to rays whose masks share no bit with `mask`. Packets and
+/// streams are off in a world with such an instance.
+void set_mask(World& world, int number, uint8_t mask);
+
 /// Fills `hits` with the nearest hit of each ray, ties by (t, instance, triangle). Needs a built
-/// world; many threads may call it at once; allocates nothing. `times`, one a ray, count where
-/// something moves; null is the middle of the shutter.
+/// world; many threads may call it at once; allocates nothing.
 void intersect_closest(const World& world, const Ray* rays, Hit* hits, int count,
-                       const float* times = nullptr);
+                       const RayTags& tags = {});
 
 /// What `ray` meets at `time` after `met`, a hit of its own, in the order of (t, instance,
 /// triangle). As thread-safe as above.
-Hit intersect_beyond(const World& world, const Ray& ray, float time, const Hit& met);
+Hit intersect_beyond(const World& world, const Ray& ray, RayTag tag, const Hit& met);
 
 /// Sets `hidden[i]` to 1 where ray i meets any triangle, else to 0. As thread-safe as above.
 void intersect_any(const World& world, const Ray* rays, uint8_t* hidden, int count,
-                   const float* times = nullptr);
+                   const RayTags& tags = {});
 
 }  // namespace trg

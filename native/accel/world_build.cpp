@@ -32,7 +32,8 @@ Placement place_soup(const World& world, const Soup& soup, int32_t number) {
             instance.identity,
             inverse_map(instance.object_to_world),
             world.motion_keys.data() + instance.first_key,
-            instance.key_count};
+            instance.key_count,
+            instance.mask};
 }
 
 float rounded_down(double x) {
@@ -110,7 +111,8 @@ Shares share_instances(const World& world) {
     Shares shares;
     for (size_t k = 0; k < world.instances.size(); ++k) {
         const Instance& instance = world.instances[k];
-        const bool merge = world.merge && instance.identity && uses[instance.mesh] == 1 &&
+        const bool merge = world.merge && instance.identity && instance.mask == kEveryRay &&
+                           uses[instance.mesh] == 1 &&
                            world.meshes[instance.mesh].shape == Shape::triangles;
         (merge ? shares.merged : shares.placed).push_back(static_cast<int32_t>(k));
     }
@@ -223,6 +225,9 @@ void place_soups(const World& world, WorldIndex& index, int threads) {
     index.unbounded = {};
     index.top = {};
     index.moving = !world.motion_keys.empty();
+    index.masked = false;
+    for (const Instance& instance : world.instances)
+        index.masked = index.masked || instance.mask != kEveryRay;
     PrimRefs refs = gather_boxes(world, index);
     index.reach = largest_extent(refs);
     if (refs.size() > 1) index.top = build_tree(refs, {1, threads});

@@ -14,6 +14,7 @@ struct Placement {
     InverseMap into;                  // from the world to the soup's space, where it stands still
     const Transform* keys = nullptr;  // of one that moves, from its space to the world
     int32_t key_count = 0;
+    uint8_t mask = kEveryRay;
 };
 
 struct WorldIndex {
@@ -27,6 +28,7 @@ struct WorldIndex {
     std::vector<Placement> unbounded;   // planes: no box holds them
     float reach = 0;                    // largest extent of the box of all placements
     bool moving = false;                // whether time changes anything
+    bool masked = false;                // whether some instance is not met by all rays
     int64_t bytes = 0;                  // of all that rays may touch
     Kernels kernels{};
 };

@@ -39,7 +39,9 @@ UpdateStats move_instances(World& world, int first, const std::vector<Transform>
     for (size_t k = 0; k < places.size(); ++k) {
         Instance& instance = world.instances[first + k];
         stats.rebuilt = stats.rebuilt || is_merged(world, instance);
+        const uint8_t mask = instance.mask;
         instance = make_instance(instance.mesh, places[k]);
+        instance.mask = mask;
     }
     if (stats.rebuilt)
         build_world(world, threads);

@@ -54,7 +54,8 @@ class QueueStorage {
                  shadow_shares_.data()},
                 times_.data(),
                 ray_times_.data(),
-                classic_ ? &classic_view_ : nullptr};
+                classic_ ? &classic_view_ : nullptr,
+                {limits_.data(), ray_masks_.data(), 0}};
     }
     /// Adds what the classic integrator needs, followed `depth` deep.
     void add_classic(int32_t depth) {
@@ -65,6 +66,11 @@ class QueueStorage {
     void add_boundaries() {
         boundaries_.resize(rays_.size());
         shadow_media_.resize(shadow_rays_.size());
+    }
+    /// Adds what kLimits needs.
+    void add_limits() {
+        limits_.resize(rays_.size());
+        ray_masks_.resize(hidden_.size());
     }
     float* depth() { return depth_.data(); }
 
@@ -83,6 +89,8 @@ class QueueStorage {
     std::vector<uint8_t> hidden_;
     std::vector<float> times_, ray_times_;
     std::vector<float> depth_;
+    std::vector<PathLimits> limits_;
+    std::vector<uint8_t> ray_masks_;
     int32_t stride_ = 0;
     std::vector<float> pass_values_;
     std::vector<PassState> pass_states_;

@@ -55,11 +55,12 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
                                    : request.samples,
              choose_tile_size(request.rect, tiling_threads(scene, request)),
              request.is_allotted()}),
-      kernels_(choose_kernel_set(
-          frozen_.features() | (request.passes.more.needs_kernels() ? kPasses : 0u),
-          scene.world.isa, scene.tables.is_classic)),
-      view_{frozen_.view(), request.width,       request.height,
-            request.seed,   request.max_bounces, frozen_.passes()},
+      kernels_(choose_kernel_set(frozen_.features() |
+                                     (request.passes.more.needs_kernels() ? kPasses : 0u) |
+                                     (request.ruled ? kLimits : 0u),
+                                 scene.world.isa, scene.tables.is_classic)),
+      view_{frozen_.view(),      request.width,    request.height, request.seed,
+            request.max_bounces, frozen_.passes(), request.rules},
       work_count_(count_passes(request.samples) * film_.tile_count()),
       start_(Clock::now()),
       end_(start_),
@@ -79,6 +80,8 @@ RenderJob::RenderJob(const Scene& scene, const RenderRequest& request)
                                      (request.passes.more.has(kAmbientOcclusion) ? 1 : 0);
     for (int k = 0; k < threads; ++k)
         storages_.emplace_back(film_.tile_pixels() * kSamplesPerPass, lights, request.passes.more);
+    if (has(kernels_.features, kLimits))
+        for (QueueStorage& storage : storages_) storage.add_limits();
     if (scene.tables.is_classic)
         for (QueueStorage& storage : storages_)
             storage.add_classic(std::min(request.max_bounces, kDeepestClassic));
@@ -244,6 +247,7 @@ bool RenderJob::render_work(const Work& work, QueueStorage& storage) {
         note_stop(StopReason::cancel);
         return false;
     }
+    counts.clamped = queues.limits.clamped;
     {
         const std::lock_guard<std::mutex> hold(tile.lock);
         film_.add(chunk, queues, view_.passes);
@@ -261,6 +265,7 @@ void RenderJob::finish_work(const RayCounts& counts) {
     shadow_rays_.fetch_add(counts.shadow, std::memory_order_relaxed);
     bounce_rays_.fetch_add(counts.bounce, std::memory_order_relaxed);
     cut_rays_.fetch_add(counts.cut, std::memory_order_relaxed);
+    clamped_.fetch_add(counts.clamped, std::memory_order_relaxed);
 }
 
 void RenderJob::finish_thread() {
@@ -295,7 +300,8 @@ RenderProgress RenderJob::progress() const {
     state.seconds = std::chrono::duration<double>(until - start_).count();
     state.rays = {
         camera_rays_.load(std::memory_order_relaxed), shadow_rays_.load(std::memory_order_relaxed),
-        bounce_rays_.load(std::memory_order_relaxed), cut_rays_.load(std::memory_order_relaxed)};
+        bounce_rays_.load(std::memory_order_relaxed), cut_rays_.load(std::memory_order_relaxed),
+        clamped_.load(std::memory_order_relaxed)};
     state.rejected_samples = film_.rejected();
     return state;
 }

@@ -24,6 +24,8 @@ struct RenderRequest {
     double seconds;  // wall-clock time after which the job stops; 0: no limit
     double rmse;     // error of the picture at which it stops; 0: no such stop
     bool adaptive;   // more samples where there is more noise
+    PathRules rules;
+    bool ruled;  // whether any of the rules can matter
 
     /// Whether halves of the replicates decide how many samples count.
     bool is_allotted() const { return rmse > 0.0 || adaptive; }
@@ -88,7 +90,8 @@ class RenderJob {
     int64_t work_count_;
     std::atomic<int64_t> next_work_{0};
     std::atomic<int64_t> pixel_samples_{0};
-    std::atomic<int64_t> camera_rays_{0}, shadow_rays_{0}, bounce_rays_{0}, cut_rays_{0};
+    std::atomic<int64_t> camera_rays_{0}, shadow_rays_{0}, bounce_rays_{0}, cut_rays_{0},
+        clamped_{0};
     std::atomic<bool> cancelled_{false};
     std::atomic<StopReason> stopped_by_{StopReason::none};
     Clock::time_point start_;

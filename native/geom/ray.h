@@ -37,4 +37,20 @@ TRG_FN bool is_traceable(const Ray& ray) {
     return (zero == 0) & directed & (ray.t_max > ray.t_min);
 }
 
+/// The mask of rays that meet every instance.
+constexpr uint8_t kEveryRay = 0xff;
+
+/// When one ray travels, 0 to 1 while the shutter is open, and the bits of instances that it meets.
+struct RayTag {
+    float time = 0.5f;
+    uint8_t mask = kEveryRay;
+};
+
+/// What is told of rays beside where they go, one each: when they travel (null: in the middle of
+/// the shutter), and the bits of instances that they meet (null: all).
+struct RayTags {
+    const float* times = nullptr;
+    const uint8_t* masks = nullptr;
+};
+
 }  // namespace trg

@@ -21,6 +21,7 @@ struct Vertex {
     SampleKey key;
     uint32_t dimension;
     int32_t path;
+    uint8_t dark = 0;  // RayKinds of scattering that bring no light here
 };
 
 struct ShadowQueue {
@@ -61,6 +62,20 @@ TRG_FN Vec3 dimmed_to(const Vertex& v, Vec3 wi, float way) {
     return {1.0f, 1.0f, 1.0f};
 }
 
+/// Share, by channel, of the light from `wi` that is scattered in ways among `kinds` that are lit.
+template <uint32_t F>
+TRG_FN Vec3 lit_share(const Vertex& v, Vec3 wi, uint8_t kinds) {
+    const uint32_t lit = kinds & ~v.dark & kBounceRays;
+    if (lit == kBounceRays) return {1.0f, 1.0f, 1.0f};
+    const ScatterShares shares = split_bsdf<lobes_of(F)>(v.bsdf, to_local(v.frame, wi), false);
+    const Vec3 rest = Vec3{1.0f, 1.0f, 1.0f} - shares.diffuse - shares.glossy;
+    Vec3 sum{0.0f, 0.0f, 0.0f};
+    if (lit & kDiffuseRay) sum = sum + shares.diffuse;
+    if (lit & kGlossyRay) sum = sum + shares.glossy;
+    if (lit & kTransmissionRay) sum = sum + rest;
+    return sum;
+}
+
 /// Queues `sample` of an emitter that was chosen with chance `share`.
 template <uint32_t F>
 TRG_FN void queue_sample(const LightSample& sample, const Vertex& v, float share,
@@ -69,6 +84,7 @@ TRG_FN void queue_sample(const LightSample& sample, const Vertex& v, float share
     const float weight =
         sample.pdf > 0.0f ? power_heuristic(share * sample.pdf, f.pdf) / share : 1.0f / share;
     Vec3 light = v.throughput * f.f_cos * sample.light * weight;
+    if constexpr (has(F, kLimits)) light = light * lit_share<F>(v, sample.wi, kEveryRay);
     if constexpr (has(F, kMedia)) light = light * dimmed_to<F>(v, sample.wi, sample.distance);
     if (is_black(light)) return;
     // The last bit of the way is left out: geometry may touch the light.
@@ -121,6 +137,8 @@ TRG_FN void add_triangle_sample(const SceneView& scene, const Vertex& v,
     float scale = power_heuristic(pdf, f.pdf) / pdf;
     if constexpr (has(F, kSeeThrough)) scale *= alpha_of<F>(scene, s, -wi);
     Vec3 light = v.throughput * f.f_cos * eval_emission<F>(scene, s, -wi) * scale;
+    if constexpr (has(F, kLimits))
+        light = light * lit_share<F>(v, wi, scene.instances[at.instance].mask);
     if constexpr (has(F, kMedia)) light = light * dimmed_to<F>(v, wi, std::sqrt(d2));
     if (is_black(light)) return;
     const Vec3 origin = ray_origin(v.surface, v.ng, wi);

@@ -37,7 +37,8 @@ const KernelSet& choose_kernel_set(uint32_t features, Isa isa, bool classic) {
 }
 
 const char* kernel_set_names() {
-    return "plain lamps textured outdoor glass full programmed passes classic classic_programmed";
+    return "plain lamps textured outdoor glass full programmed limited passes classic "
+           "classic_programmed";
 }
 
 void render_depth(const RenderView& view, const Pixel* pixels, int32_t count, PathQueues& queues,

@@ -105,10 +105,10 @@ TRG_RARE_FN bool pass_boundary(const SceneView& scene, const TimedRay& ray, cons
         first.t * 1.0000005f + 4.0f * face.surface.error * size / larger(face.cosine, 0.02f);
     Pile pile{};
     note_hit(first, face.surface, &pile);
-    Hit next = intersect_beyond(*scene.world, ray.ray, ray.time, first);
+    Hit next = intersect_beyond(*scene.world, ray.ray, {ray.time, ray.mask}, first);
     while (pile.count < kMostMedia && next.t <= reach && has_priority(scene, next)) {
         note_hit(next, cross_one<F>(scene, ray, next, met.media, &beyond).surface, &pile);
-        next = intersect_beyond(*scene.world, ray.ray, ray.time, next);
+        next = intersect_beyond(*scene.world, ray.ray, {ray.time, ray.mask}, next);
     }
     const int32_t here = ruling_medium(scene, *met.media), there = ruling_medium(scene, beyond);
     if (here == there) {
@@ -146,7 +146,7 @@ TRG_RARE_FN MediaStack media_around(const SceneView& scene, Vec3 origin) {
         const int32_t known = entered.count;
         cross_surface(scene, s.material, enters, &entered);
         if (!enters && entered.count == known) cross_surface(scene, s.material, true, &around);
-        hit = intersect_beyond(*scene.world, up.ray, up.time, hit);
+        hit = intersect_beyond(*scene.world, up.ray, {up.time, up.mask}, hit);
     }
     for (int32_t k = 0; 2 * k + 1 < around.count; ++k) {
         const int32_t other = around.count - 1 - k, kept = around.materials[k];

@@ -49,6 +49,31 @@ struct PassQueues {
 };
 struct ClassicQueues;
 
+/// What a ray is, by the scattering that sent it on; bits of the masks of instances.
+enum RayKind : uint8_t {
+    kCameraRay = 1,
+    kDiffuseRay = 2,
+    kGlossyRay = 4,
+    kTransmissionRay = 8,
+    kShadowRay = 16,
+    kBounceRays = kDiffuseRay | kGlossyRay | kTransmissionRay
+};
+
+/// What a path remembers of its scatterings.
+struct PathLimits {
+    uint8_t kind;     // RayKind of its ray
+    bool ended;       // it only collects what shines from here on
+    int32_t used[3];  // scatterings of a kind
+    int32_t sheets;   // surfaces that it went straight through
+};
+
+/// Memory for kLimits, null without.
+struct LimitQueues {
+    PathLimits* states;  // by path
+    uint8_t* ray_masks;  // of the rays that are traced next
+    int64_t clamped;     // contributions cut so far
+};
+
 constexpr int32_t kMostMedia = 8;
 
 /// The materials whose insides a path is in, in the order of entering; more than these are not
@@ -85,7 +110,13 @@ struct PathQueues {
     float* times;      // by path, 0 to 1 while the shutter is open; only where something moves
     float* ray_times;  // of the rays that are traced next
     ClassicQueues* classic;  // null for paths
+    LimitQueues limits;
 };
+
+/// The path that a shadow ray belongs to.
+TRG_FN int32_t path_of(const ShadowState& state) {
+    return state.path < 0 ? ~state.path : state.path;
+}
 
 /// `path` as a state of a path or a shadow ray has it.
 TRG_FN float path_time(const SceneView& scene, const PathQueues& queues, int32_t path) {
@@ -104,6 +135,15 @@ struct Chunk {
     int32_t samples;
 };
 
+/// By what paths are cut short, or made to bring less than they found: each is a bias.
+struct PathRules {
+    int32_t bounces[3];  // as max_bounces, of diffuse, glossy and transmission
+    int32_t sheets;      // surfaces to go straight through
+    float clamp_direct,
+        clamp_indirect;           // most of a contribution's three channels together; 0: no limit
+    bool reflective, refractive;  // caustics: light by such a way after a diffuse one
+};
+
 /// What holds for a whole render.
 struct RenderView {
     SceneView scene;
@@ -111,11 +151,13 @@ struct RenderView {
     uint32_t seed;
     int32_t max_bounces;
     PassView passes;
+    PathRules rules;
 };
 
 struct RayCounts {
     int64_t camera, shadow, bounce;
-    int64_t cut;  // rays of the classic integrator that weighed too little or lay too deep
+    int64_t cut;      // rays of the classic integrator that weighed too little or lay too deep
+    int64_t clamped;  // contributions that a clamp made smaller
 };
 
 /// Pairs of dimensions of the sampler: the camera's, then a block for each surface.

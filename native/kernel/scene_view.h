@@ -24,6 +24,7 @@ enum Feature : uint32_t {
     kEnvironment = 512,     // a picture of the world around
     kPrograms = 1024,       // textures that are programs, and normals that they bend
     kPasses = 2048,         // passes beside combined, depth and normal
+    kLimits = 4096,         // PathRules, holdouts, and surfaces that only some rays meet
 };
 
 TRG_FN constexpr bool has(uint32_t features, Feature feature) {
@@ -105,6 +106,9 @@ struct SceneView {
     const Transform* motion_keys;   // of the instances that move
     const CameraPose* camera_keys;  // of a camera that moves, as geom/motion.h has keys
     int32_t camera_key_count;       // or 0
+    bool masked;                    // whether some instance is not met by all rays
+    bool sky_covers;                // whether rays that leave the scene count as covered
+    const uint8_t* held_out;        // 1 an instance that is, or null
     bool timed;                     // whether anything moves, so that paths have times
     const int32_t* slot_materials;  // of all instances in a row
     const int64_t* first_slot;      // one an instance

@@ -4,6 +4,7 @@
 
 #include "kernel/nested_media.h"
 #include "kernel/pass_values.h"
+#include "kernel/path_limits.h"
 
 namespace trg {
 
@@ -204,6 +205,7 @@ TRG_FN bool make_vertex(const SceneView& scene, Vec3 wo, Vertex* v, Vec3* normal
     Material m = material_at<F>(&look, row);
     if constexpr (has(F, kMedia))
         if (v->boundary) face_medium(*v->boundary, view.outside, row == s.material, &m);
+    if constexpr (has(F, kLimits)) drop_caustics(&m, v);
     return make_bsdf<lobes_of(F)>(m, view, &v->bsdf);
 }
 
@@ -233,6 +235,9 @@ TRG_FN void continue_path(ShadeStage& stage, const Vertex& v) {
         }
     }
     if (is_black(throughput)) return;
+    if constexpr (has(F, kLimits))
+        if (!count_scattering<F>(stage.view.rules, v, next, &stage.queues.limits.states[v.path]))
+            return;
     const Vec3 wi = normalize(to_world(v.frame, next.wi));
     if constexpr (has(F, kMedia))
         if (dot(v.ng, wi) < 0.0f) enter_beyond(stage, v);
@@ -247,6 +252,8 @@ template <uint32_t F>
 TRG_FN void add_light(const RenderView& view, PathQueues& queues, const PathAt& end,
                       PassKind source, Vec3 light) {
     PathResult& result = queues.results[end.path];
+    if constexpr (has(F, kLimits))
+        light = clamp_light(view.rules, end.scatterings, light, &queues.limits.clamped);
     result.radiance = result.radiance + light;
     if constexpr (has(F, kPasses)) note_source(view, queues.passes, end, source, light);
 }
@@ -324,10 +331,14 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
             add_light<F>(stage.view, stage.queues, end, kEmissionPass,
                          state.throughput * gather_lights<F>(scene, by));
     if (!met) {
+        if constexpr (has(F, kLimits))
+            result.hit = result.hit || (stage.depth == 0 && scene.sky_covers);
         add_light<F>(stage.view, stage.queues, end, kEnvironmentPass,
                      v.throughput * world_seen<F>(scene, ray.direction, state.pdf, stage.depth));
         return;
     }
+    if constexpr (has(F, kLimits))
+        if (stage.depth == 0 && scene.held_out && scene.held_out[hit.instance]) return;
     if (stage.depth == 0) result.hit = true;
     if constexpr (has(F, kExtendedEmitters))
         if (scene.materials[v.surface.material].emission_weight > 0.0f)
@@ -338,11 +349,15 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
             note_place(stage.view, stage.queues.passes, state.path, v.surface,
                        hit.t * length(ray.direction));
     if (stage.depth > stage.view.max_bounces) return;
+    if constexpr (has(F, kLimits))
+        if (!may_scatter(stage.view.rules, stage.queues.limits.states[state.path], &v)) return;
     v.key = stage.queues.keys[state.path];
     v.dimension = kFirstBounceDimension + kDimensionsPerBounce * static_cast<uint32_t>(stage.depth);
     Vec3 normal;
     const bool scatters = make_vertex<F>(scene, -normalize(ray.direction), &v, &normal);
     if (stage.depth == 0) result.normal = normal;
+    if constexpr (has(F, kLimits))
+        if (stage.depth == 0 && scene.materials[v.row].holdout) result.hit = false;
     if (!scatters) return;
     scatter_path<F>(stage, v);
 }

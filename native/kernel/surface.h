@@ -21,6 +21,7 @@ struct Surface {
 struct TimedRay {
     Ray ray;
     float time;
+    uint8_t mask = kEveryRay;
 };
 
 /// Instance `number` as it stands at `time`; `*moved` is room for one that moves.

@@ -13,6 +13,11 @@ template <uint32_t F>
 void accumulate_light(const RenderView& view, PathQueues& queues, int32_t depth, int32_t count) {
     for (int32_t i = 0; i < count; ++i) {
         if (queues.hidden[i]) continue;
+        if constexpr (has(F, kLimits)) {
+            Vec3& light = queues.shadows[i].light;
+            if (queues.shadows[i].path >= 0)
+                light = clamp_light(view.rules, depth + 1, light, &queues.limits.clamped);
+        }
         if constexpr (has(F, kPasses)) {
             note_shadow(view, queues, i, depth);
             if (queues.shadows[i].path < 0) continue;
@@ -32,33 +37,47 @@ const float* ray_times(const SceneView& scene, PathQueues& queues, const State* 
     return queues.ray_times;
 }
 
+/// Times and masks of the rays of the paths, or of the shadow rays, that are traced next.
+template <uint32_t F, class State>
+RayTags ray_tags(const SceneView& scene, PathQueues& queues, const State* states, int32_t count) {
+    RayTags tags{ray_times(scene, queues, states, count), nullptr};
+    if constexpr (has(F, kLimits)) {
+        if (!scene.masked) return tags;
+        for (int32_t i = 0; i < count; ++i) queues.limits.ray_masks[i] = mask_of(queues, states[i]);
+        tags.masks = queues.limits.ray_masks;
+    }
+    return tags;
+}
+
 /// Finds where all paths go on to, and which shadow rays are stopped.
 template <uint32_t F>
-void trace_paths(const SceneView& scene, PathQueues& queues, int32_t living, int32_t depth) {
+void trace_paths(const RenderView& view, PathQueues& queues, int32_t living, int32_t depth) {
+    const SceneView& scene = view.scene;
     intersect_closest(*scene.world, queues.rays, queues.hits, living,
-                      ray_times(scene, queues, queues.states, living));
+                      ray_tags<F>(scene, queues, queues.states, living));
     if constexpr (has(F, kMedia)) {
         for (int32_t slot = 0; scene.nested && slot < living; ++slot)
-            pass_boundaries<F>(scene, queues, slot, depth);
+            pass_boundaries<F>(view, queues, slot, depth);
         if (scene.nested) return;
     }
     if constexpr (has(F, kSeeThrough))
         for (int32_t slot = 0; scene.see_through && slot < living; ++slot) {
             uint32_t sheet = 0;
-            pass_sheets<F>(scene, queues, {slot, depth}, &sheet);
+            pass_sheets<F>(view, queues, {slot, depth}, &sheet);
         }
 }
 template <uint32_t F>
-void trace_shadows(const SceneView& scene, PathQueues& queues, int32_t count) {
+void trace_shadows(const RenderView& view, PathQueues& queues, int32_t count) {
+    const SceneView& scene = view.scene;
     if constexpr (has(F, kSeeThrough)) {
         if (scene.see_through || scene.nested) {
             for (int32_t i = 0; i < count; ++i)
-                queues.hidden[i] = dim_shadow<F>(scene, queues, i) ? 1 : 0;
+                queues.hidden[i] = dim_shadow<F>(view, queues, i) ? 1 : 0;
             return;
         }
     }
     intersect_any(*scene.world, queues.shadow_rays, queues.hidden, count,
-                  ray_times(scene, queues, queues.shadows, count));
+                  ray_tags<F>(scene, queues, queues.shadows, count));
 }
 
 /// True when rays after the last scattering could still find light.
@@ -71,7 +90,7 @@ bool last_ray_matters(const SceneView& scene) {
 template <uint32_t F>
 void finish_in_background(const RenderView& view, PathQueues& queues, int32_t count) {
     intersect_any(*view.scene.world, queues.rays, queues.hidden, count,
-                  ray_times(view.scene, queues, queues.states, count));
+                  {ray_times(view.scene, queues, queues.states, count), nullptr});
     for (int32_t i = 0; i < count; ++i) {
         if (queues.hidden[i]) continue;
         PathResult& result = queues.results[queues.states[i].path];
@@ -102,6 +121,7 @@ bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues
     if constexpr (has(F, kMedia))
         if (view.scene.nested) begin_media<F>(view.scene, queues, living);
     if constexpr (has(F, kPasses)) clear_passes(view.passes, queues.passes, living);
+    if constexpr (has(F, kLimits)) clear_limits(queues.limits, living);
     for (int32_t depth = 0; living > 0; ++depth) {
         if (cancelled.load(std::memory_order_relaxed)) return false;
         if (depth > 0) counts->bounce += living;
@@ -109,13 +129,13 @@ bool render_chunk(const RenderView& view, const Chunk& chunk, PathQueues& queues
             finish_in_background<F>(view, queues, living);
             return true;
         }
-        trace_paths<F>(view.scene, queues, living, depth);
+        trace_paths<F>(view, queues, living, depth);
         ShadeStage stage{
             view, queues, depth, {queues.shadow_rays, queues.shadows, 0, queues.shadow_media}, 0};
         shade_all<F>(stage, living);
         if (stage.shadows.count > 0) {
             counts->shadow += stage.shadows.count;
-            trace_shadows<F>(view.scene, queues, stage.shadows.count);
+            trace_shadows<F>(view, queues, stage.shadows.count);
             accumulate_light<F>(view, queues, depth, stage.shadows.count);
         }
         living = stage.next_count;
@@ -131,7 +151,8 @@ constexpr uint32_t kOutdoor = kTextured | kEnvironment;
 constexpr uint32_t kGlass = kOutdoor | kTransmission;
 constexpr uint32_t kFull = kGlass | kLayers | kSeeThrough | kMixtures | kMedia;
 constexpr uint32_t kProgrammed = kFull | kPrograms;
-constexpr uint32_t kPassed = kProgrammed | kPasses;
+constexpr uint32_t kLimited = kProgrammed | kLimits;
+constexpr uint32_t kPassed = kLimited | kPasses;
 
 const KernelSet kSets[] = {{"plain", kPlain, render_chunk<kPlain>},
                            {"lamps", kLamps, render_chunk<kLamps>},
@@ -140,6 +161,7 @@ const KernelSet kSets[] = {{"plain", kPlain, render_chunk<kPlain>},
                            {"glass", kGlass, render_chunk<kGlass>},
                            {"full", kFull, render_chunk<kFull>},
                            {"programmed", kProgrammed, render_chunk<kProgrammed>},
+                           {"limited", kLimited, render_chunk<kLimited>},
                            {"passes", kPassed, render_chunk<kPassed>}};
 
 }  // namespace

@@ -66,7 +66,7 @@ PyObject* poll_method(PyObject* self, PyObject* args, PyObject* kwargs) {
             state = job_of(self).wait(timeout_s);
         }
         return checked(Py_BuildValue(
-            "{s:O, s:O, s:z, s:L, s:L, s:d, s:L, s:L, s:L, s:L, s:L, s:s}", "done",
+            "{s:O, s:O, s:z, s:L, s:L, s:d, s:L, s:L, s:L, s:L, s:L, s:L, s:s}", "done",
             as_bool(state.done), "cancelled", as_bool(state.stopped_by == StopReason::cancel),
             "stopped_by", name_of(state.stopped_by), "samples",
             static_cast<long long>(state.samples), "target", static_cast<long long>(state.target),
@@ -74,7 +74,8 @@ PyObject* poll_method(PyObject* self, PyObject* args, PyObject* kwargs) {
             "rays_shadow", static_cast<long long>(state.rays.shadow), "rays_bounce",
             static_cast<long long>(state.rays.bounce), "rejected_samples",
             static_cast<long long>(state.rejected_samples), "cut_rays",
-            static_cast<long long>(state.rays.cut), "kernel_set", job_of(self).kernel_set()));
+            static_cast<long long>(state.rays.cut), "clamped",
+            static_cast<long long>(state.rays.clamped), "kernel_set", job_of(self).kernel_set()));
     });
 }
 

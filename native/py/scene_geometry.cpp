@@ -221,6 +221,26 @@ PyObject* set_motion_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     });
 }
 
+PyObject* set_visibility_method(PyObject* self, PyObject* args, PyObject* kwargs) {
+    return guarded_object([&] {
+        PyObject *masks, *held_out;
+        int sky_covers = 0;
+        const char* const names[] = {"masks", "held_out", "sky_covers", nullptr};
+        parse_arguments(args, kwargs, "OO|p", names, &masks, &held_out, &sky_covers);
+        const Buffer bits = Buffer::of<uint8_t>(masks, "masks", {kAnyExtent});
+        const Buffer held = Buffer::of<uint8_t>(held_out, "held_out", {kAnyExtent});
+        Scene& scene = scene_to_change(self);
+        const auto instances = static_cast<int64_t>(scene.world.instances.size());
+        bits.expect_rows("masks", instances);
+        held.expect_rows("held_out", instances);
+        for (int64_t k = 0; k < instances; ++k)
+            set_mask(scene.world, static_cast<int>(k), bits.data<uint8_t>()[k]);
+        scene.sky_covers = sky_covers != 0;
+        scene.held_out.assign(held.data<uint8_t>(), held.data<uint8_t>() + instances);
+        return none();
+    });
+}
+
 PyObject* build_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         int threads = 0;
@@ -281,6 +301,11 @@ PyMethodDef kSceneGeometryMethods[] = {
      "set_motion(first, transforms)\n\n"
      "Instances `first` and on go straight from key to key of their row of transforms "
      "(instances, keys, 3, 4) while the shutter is open."},
+    {"set_visibility", as_method(set_visibility_method), METH_VARARGS | METH_KEYWORDS,
+     "set_visibility(masks, held_out, sky_covers=False)\n\n"
+     "uint8 (instances,): which rays meet an instance (1 camera, 2 diffuse, 4 glossy, 8 "
+     "transmission, 16 shadow, 255 all), and whether the camera sees a hole there. sky_covers: "
+     "alpha counts rays that leave the scene as hits."},
     {"add_instances", as_method(add_instances_method), METH_VARARGS | METH_KEYWORDS,
      "add_instances(mesh, transforms, slot_materials=None) -> index of the first"},
     {"build", as_method(build_method), METH_VARARGS | METH_KEYWORDS,

@@ -202,20 +202,47 @@ void check_request(const RenderRequest& request) {
     check_threads(request.threads);
 }
 
+/// Rules of None: nothing is cut short that max_bounces does not.
+void parse_rules(PyObject* rules, RenderRequest* request) {
+    constexpr int kEndless = 1 << 20;
+    PathRules& r = request->rules;
+    r = {{kEndless, kEndless, kEndless}, kEndless, 0.0f, 0.0f, true, true};
+    if (!rules || rules == Py_None) return;
+    const PyRef items = checked(PySequence_Tuple(rules));
+    int reflective = 1, refractive = 1;
+    if (!PyArg_ParseTuple(items.get(),
+                          "iiiiffpp;rules: expected (diffuse, glossy, transmission, transparent, "
+                          "clamp_direct, clamp_indirect, reflective, refractive)",
+                          &r.bounces[0], &r.bounces[1], &r.bounces[2], &r.sheets, &r.clamp_direct,
+                          &r.clamp_indirect, &reflective, &refractive))
+        throw PythonError{};
+    for (int bounces : {r.bounces[0], r.bounces[1], r.bounces[2], r.sheets})
+        if (bounces < 0 || bounces > kEndless)
+            throw ArgumentError("rules: expected 0 to 2^20 bounces");
+    if (!(r.clamp_direct >= 0.0f) || !(r.clamp_indirect >= 0.0f))
+        throw ArgumentError("rules: expected clamps of 0 (none) or more");
+    r.clamp_direct *= 3.0f;
+    r.clamp_indirect *= 3.0f;
+    r.reflective = reflective != 0;
+    r.refractive = refractive != 0;
+    request->ruled = true;
+}
+
 PyObject* start_render_method(PyObject* self, PyObject* args, PyObject* kwargs) {
     return guarded_object([&] {
         RenderRequest request{};
         long long samples;
         unsigned long long seed = 0;
-        PyObject *passes = nullptr, *border = nullptr;
+        PyObject *passes = nullptr, *border = nullptr, *rules = nullptr;
         int adaptive = 0;
         request.max_bounces = 12;
-        const char* const names[] = {"width",       "height",  "samples",  "seed",
-                                     "max_bounces", "threads", "passes",   "border",
-                                     "seconds",     "rmse",    "adaptive", nullptr};
-        parse_arguments(args, kwargs, "iiL|KiiOOddp", names, &request.width, &request.height,
+        const char* const names[] = {"width",    "height", "samples", "seed",    "max_bounces",
+                                     "threads",  "passes", "border",  "seconds", "rmse",
+                                     "adaptive", "rules",  nullptr};
+        parse_arguments(args, kwargs, "iiL|KiiOOddpO", names, &request.width, &request.height,
                         &samples, &seed, &request.max_bounces, &request.threads, &passes, &border,
-                        &request.seconds, &request.rmse, &adaptive);
+                        &request.seconds, &request.rmse, &adaptive, &rules);
+        parse_rules(rules, &request);
         request.adaptive = adaptive != 0;
         request.samples = samples;
         request.seed = static_cast<uint32_t>(seed ^ (seed >> 32));
@@ -257,7 +284,7 @@ PyMethodDef kSceneRenderMethods[] = {
      "mist (start, depth, falloff); after instances and materials."},
     {"start_render", as_method(start_render_method), METH_VARARGS | METH_KEYWORDS,
      "start_render(width, height, samples, seed=0, max_bounces=12, threads=0, passes=(), "
-     "border=None, seconds=0, rmse=0, adaptive=False) -> Job\n\n"
+     "border=None, seconds=0, rmse=0, adaptive=False, rules=None) -> Job\n\n"
      "Ends with its samples, after `seconds` of wall-clock time, or when the estimated error of "
      "the "
      "picture is `rmse`, whichever comes first; 0 is no limit."},

@@ -46,6 +46,7 @@ FrozenScene::FrozenScene(const Scene& scene) {
                       t.constants.data()};
     view_.texture_meshes = texture_meshes_.data();
     view_.randoms = data_or_null(scene.randoms);
+    view_visibility(scene);
     view_.antialiasing = scene.tables.antialiasing;
     view_.antialiasing.one_pattern = scene.tables.is_classic;
     view_.lights = scene.tables.lights.data();
@@ -91,6 +92,13 @@ void FrozenScene::check_materials(const Scene& scene) const {
             if (index >= textures)
                 throw TableError(
                     "textures: the table was replaced by one too short for the materials");
+}
+
+void FrozenScene::view_visibility(const Scene& scene) {
+    view_.held_out = data_or_null(scene.held_out);
+    view_.sky_covers = scene.sky_covers;
+    for (const Instance& instance : scene.world.instances)
+        view_.masked = view_.masked || instance.mask != kEveryRay;
 }
 
 void FrozenScene::view_classic(const ShadingTables& tables) {
@@ -166,6 +174,7 @@ uint32_t FrozenScene::find_features(const Scene& scene) const {
         if (!is_black(m.absorption) || m.priority > 0.0f) features |= kMedia;
         if (m.coat > 0.0f || max_component(m.sheen) > 0.0f || m.diffuse_roughness > 0.0f)
             features |= kLayers;
+        if (m.holdout) features |= kLimits;
         if (m.alpha < 1.0f || m.alpha_texture >= 0) features |= kSeeThrough;
     }
     for (const MeshAttributes& a : scene.attributes)
@@ -174,6 +183,7 @@ uint32_t FrozenScene::find_features(const Scene& scene) const {
         emitters_.tree_has_extended)
         features |= kExtendedEmitters;
     if (!scene.tables.environment.pixels.empty()) features |= kEnvironment;
+    if (view_.masked || view_.held_out) features |= kLimits;
     return features;
 }
 

@@ -25,6 +25,7 @@ class FrozenScene {
 
   private:
     void check_materials(const Scene& scene) const;
+    void view_visibility(const Scene& scene);
     void view_classic(const ShadingTables& tables);
     void view_images(const Scene& scene);
     void view_corners(const Scene& scene);

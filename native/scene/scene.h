@@ -39,6 +39,8 @@ struct Scene {
     std::vector<int64_t> first_slot;         // one an instance: where its slots begin
     std::vector<int32_t> slot_count;         // one an instance
     std::vector<float> randoms;              // one an instance, or none
+    std::vector<uint8_t> held_out;           // 1 an instance that is, or none
+    bool sky_covers = false;                 // see SceneView
     PassTables passes;
     ShadingTables tables;
 };

@@ -56,7 +56,8 @@ const std::vector<const char*> kMaterialFields = {"base_r",
                                                   "coat_texture",
                                                   "sheen_texture",
                                                   "sheen_roughness_texture",
-                                                  "diffuse_roughness_texture"};
+                                                  "diffuse_roughness_texture",
+                                                  "holdout"};
 
 namespace {
 
@@ -109,6 +110,7 @@ Material read_material(TableRow row, int64_t material_count, int64_t texture_cou
     m.sheen_texture = row.next_index(-1, texture_count);
     m.sheen_roughness_texture = row.next_index(-1, texture_count);
     m.diffuse_roughness_texture = row.next_index(-1, texture_count);
+    m.holdout = row.next_index(0, 2) == 1;
     if (m.mix_count > 0 && (m.mix_first < 0 || m.mix_first + m.mix_count > material_count))
         throw TableError("materials: a mixture of rows that are not there");
     return m;

@@ -53,6 +53,7 @@ struct Material {
     int32_t mix_first, mix_count;  // the rows that this is a mixture of; count 0: none
     float weight;                  // as part of a mixture
     int32_t weight_texture;
+    bool holdout;     // hides what is behind, from the camera alone, and shows nothing
     Vec3 absorption;  // per unit of length, of what the surface encloses
     float priority;   // of what it encloses, over other media; 0: none
     int32_t medium;   // number among those with priorities, from 1 on

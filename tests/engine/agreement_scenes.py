@@ -10,6 +10,7 @@ import numpy as np
 from trg_blender.engine.scene_arrays import Environment, Light, Material, RenderSettings, SceneArrays, Texture
 
 from .agreement_programs import program_scenes
+from .agreement_rules import rule_cases
 from .arrays import ball, box, checker, light, look_at, place, quad
 
 Case = tuple[SceneArrays, RenderSettings]
@@ -468,4 +469,5 @@ def cases() -> dict[str, Case]:
     )
     furnace = studio(Material(0.8, 0.8, 0.8), light("sun", (0, 0, 0)), world=(1, 1, 1))
     found["furnace"] = (furnace, SETTINGS)
+    found.update(rule_cases(studio, SETTINGS))
     return found

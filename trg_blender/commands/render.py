@@ -35,6 +35,16 @@ from .render_output import (
     write_report,
 )
 
+LIGHT_PATHS = {
+    "max_bounces": "times that light may scatter after the first surface",
+    "diffuse_bounces": "of these, diffuse ones",
+    "glossy_bounces": "glossy ones",
+    "transmission_bounces": "refractions and light through surfaces",
+    "transparent_bounces": "surfaces that rays go straight through",
+    "clamp_direct": "limit for a sample of direct light; 0: none",
+    "clamp_indirect": "limit for a sample of indirect light; 0: none",
+}
+"""options that are properties of the scene -> what they limit"""
 SOURCES, PICTURES = (".trg", ".blend"), (".png", ".exr")
 EXIT_CODES = {
     "program": cli.WRONG,
@@ -80,12 +90,21 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
     add("--no-adaptive", action="store_true", help="with --time or --error: all pixels get equal samples")
     add("--filter", choices=PIXEL_FILTERS, metavar="NAME", help="pixel filter: " + ", ".join(PIXEL_FILTERS))
     add("--filter-width", type=positive_number, metavar="PIXELS", help="width of filters but box; 1.5")
+    add_light_paths(parser)
     add("--seed", type=at_least(0), metavar="N", help="changes the noise")
     add("--threads", type=at_least(0), metavar="N", help="0: all cores")
     add("--engine", choices=("TRG", "CYCLES"), default="TRG", help="engine that renders the scene")
     add("--report", type=Path, metavar="FILE", help="write the report as JSON; several frames give a list")
     add_set(parser)
     add("--quiet", action="store_true", help="no progress and no closing paragraph")
+
+
+def add_light_paths(parser: argparse.ArgumentParser) -> None:
+    """Options that cut paths short; what they take away is named in the report, apart from the error."""
+    for option, what in LIGHT_PATHS.items():
+        kind = non_negative_number if option.startswith("clamp") else at_least(0)
+        shown = "LIGHT" if option.startswith("clamp") else "N"
+        parser.add_argument("--" + option.replace("_", "-"), type=kind, metavar=shown, help=what)
 
 
 def run(args: argparse.Namespace) -> int:
@@ -284,7 +303,7 @@ def apply_options(bpy: ModuleType, scene: Any, args: argparse.Namespace) -> None
             if value is not None:
                 setattr(scene.cycles, name, value)
     scene.render.engine = args.engine
-    for name in ("device", "accel", "integrator", "aa", "aa_side", "samples", "seed"):
+    for name in ("device", "accel", "integrator", "aa", "aa_side", "samples", "seed", *LIGHT_PATHS):
         value = getattr(args, name)
         if value is not None:
             setattr(scene.trg, name, value)
@@ -399,6 +418,10 @@ def positive_number(text: str) -> float:
     if not (value > 0.0 and math.isfinite(value)):
         raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0")
     return value
+
+
+def non_negative_number(text: str) -> float:
+    return 0.0 if text.strip() in ("0", "0.0") else positive_number(text)
 
 
 def at_least(lowest: int) -> Any:

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from .holes import has_holes
 from .native_scene import (
     add_environment,
     add_mesh,
@@ -151,6 +152,7 @@ def _kind(scene: SceneArrays, settings: RenderSettings) -> tuple[object, ...]:
         scene.environment is None,
         scene.pass_data is None,
         scene.transparent_film,
+        has_holes(scene),
     )
 
 
@@ -285,6 +287,7 @@ def _same_instances(old: list[InstanceArrays], new: list[InstanceArrays]) -> boo
             a.mesh == b.mesh
             and a.transforms.shape == b.transforms.shape
             and same_array(a.slot_materials, b.slot_materials)
+            and (a.mask, a.holdout) == (b.mask, b.holdout)
             and a.motion is None
             and b.motion is None
         )

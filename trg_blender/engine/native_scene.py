@@ -9,7 +9,9 @@ import numpy as np
 
 from .classic_arrays import pack_classic
 from .cryptomatte import id_of
+from .holes import has_holes
 from .scene_arrays import (
+    EVERY_RAY,
     LIGHT_FIELDS,
     MATERIAL_FIELDS,
     TEXTURE_FIELDS,
@@ -60,6 +62,7 @@ def add_instances(result: Any, scene: SceneArrays) -> None:
         )
         if instance.motion is not None:
             set_motion(result, first, instance.motion)
+    set_visibility(result, scene)
 
 
 def set_tables(result: Any, scene: SceneArrays) -> None:
@@ -97,6 +100,16 @@ def set_motion(result: Any, first: int, motion: Float32) -> None:
     for number in np.flatnonzero((motion != motion[:, :1]).any(axis=(1, 2, 3))):
         keys = np.ascontiguousarray(motion[number : number + 1], dtype=np.float32)
         result.set_motion(first + int(number), keys)
+
+
+def set_visibility(result: Any, scene: SceneArrays) -> None:
+    """Who is met by which rays; nothing where everybody is by all."""
+    if not has_holes(scene) and all(one.mask == EVERY_RAY for one in scene.instances):
+        return
+    copies = [len(one.transforms) for one in scene.instances]
+    masks = np.repeat(np.array([one.mask for one in scene.instances], np.uint8), copies)
+    held_out = np.repeat(np.array([one.holdout for one in scene.instances], np.uint8), copies)
+    result.set_visibility(masks, held_out, has_holes(scene) and not scene.transparent_film)
 
 
 def set_textures(result: Any, scene: SceneArrays) -> None:

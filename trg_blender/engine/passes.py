@@ -7,6 +7,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
+from .holes import has_holes
 from .image_error import STUDENT_95
 from .scene_arrays import Float32, PassData, RenderSettings, SceneArrays
 
@@ -64,7 +65,7 @@ def job_passes(scene: SceneArrays, settings: RenderSettings) -> tuple[str, ...]:
     wanted = tuple(name for name in PASS_NAMES if name in settings.passes and name not in ERROR_PASSES)
     if settings.aa == "mfaa" and "depth" not in wanted:
         wanted = (*wanted, "depth")
-    return (*wanted, "alpha") if scene.transparent_film else wanted
+    return (*wanted, "alpha") if scene.transparent_film or has_holes(scene) else wanted
 
 
 def read_combined(job: PassSource, scene: SceneArrays, shape: tuple[int, int]) -> Float32:

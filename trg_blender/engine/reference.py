@@ -73,7 +73,7 @@ def render_reference(
 
     `progress` sees the film after each step. Raises ImportError without embreex.
     """
-    world = build_world(scene, settings.width)
+    world = build_world(scene, settings.width, settings.rules)
     film = make_film(world, settings)
     for step, batch in expose(world, settings, cancelled or (lambda: False)):
         add_estimate(film, step, batch)
@@ -241,6 +241,7 @@ def join_estimates(parts: list[Estimate], join: Join) -> Estimate:
             sum(p.rays.camera for p in parts),
             sum(p.rays.shadow for p in parts),
             sum(p.rays.bounce for p in parts),
+            sum(p.rays.clamped for p in parts),
         ),
     )
 
@@ -265,7 +266,9 @@ def expose_moving(
     parts = []
     start = np.random.default_rng([settings.seed % 2**64, step.replicate]).random()
     for number in range(step.first, step.first + step.samples):
-        still = build_world(still_at(world.scene, (start + number * GOLDEN) % 1.0), settings.width)
+        still = build_world(
+            still_at(world.scene, (start + number * GOLDEN) % 1.0), settings.width, settings.rules
+        )
         part = expose_step(still, settings, Step(step.replicate, 1, number), rng, cancelled)
         if part is None:
             return None
@@ -300,3 +303,4 @@ def add_estimate(film: ReferenceFilm, step: Step, batch: Estimate) -> None:
     film.rays.camera += batch.rays.camera
     film.rays.shadow += batch.rays.shadow
     film.rays.bounce += batch.rays.bounce
+    film.rays.clamped += batch.rays.clamped

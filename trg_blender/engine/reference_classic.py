@@ -22,6 +22,7 @@ from .reference_lights import (
     spot_mask,
     spread_share,
 )
+from .reference_limits import new_limits
 from .reference_math import dot
 from .reference_media import (
     Stack,
@@ -71,7 +72,8 @@ def trace_classic(world: World, camera: CameraRays, max_bounces: int) -> Estimat
     estimate = Estimate(np.zeros((count, 3)), np.zeros(count, dtype=bool), np.zeros((count, 3)))
     table = pack_classic(world.scene).astype(np.float64)
     world = with_classic_media(world, table)
-    start = Paths(camera.rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count), no_media(count))
+    one, limits = np.ones((count, 3)), new_limits(count)
+    start = Paths(camera.rays, one, np.full(count, np.inf), np.arange(count), no_media(count), limits)
     if world.nested is not None and world.scene.camera.kind != ORTHOGRAPHIC:
         start.media[:] = media_around(world.nested, world.scene.camera.matrix[:, 3])
     queue = [Pending(start, 0)]
@@ -223,7 +225,8 @@ def send(paths: Paths, surface: Surface, branch: Branch, depth: int) -> Pending:
     rows = branch.weight.max(axis=1) >= CUT
     unit = (branch.wi / np.linalg.norm(branch.wi, axis=1, keepdims=True))[rows]
     rays = Rays(surface.leave(branch.wi)[rows], unit, np.full(len(unit), FAR))
-    on = Paths(rays, branch.weight[rows], paths.pdf[rows], paths.index[rows], branch.media[rows])
+    limits = paths.limits.take(rows)
+    on = Paths(rays, branch.weight[rows], paths.pdf[rows], paths.index[rows], branch.media[rows], limits)
     return Pending(on, depth)
 
 
@@ -256,7 +259,8 @@ def light_rays(paths: Paths, surface: Surface, row: Row, light: Light) -> Paths:
     rows = np.any(sent != 0.0, axis=1)
     far = np.where(np.isinf(distance), FAR, distance * (1.0 - 1e-5) - 2.0 * surface.epsilon)
     rays = Rays(surface.leave(wi)[rows], wi[rows], np.maximum(far, 0.0)[rows])
-    return Paths(rays, sent[rows], paths.pdf[rows], paths.index[rows], paths.media[rows])
+    limits = paths.limits.take(rows)
+    return Paths(rays, sent[rows], paths.pdf[rows], paths.index[rows], paths.media[rows], limits)
 
 
 def add_tinted(world: World, table: Float64, paths: Paths, estimate: Estimate) -> None:

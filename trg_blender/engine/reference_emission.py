@@ -57,7 +57,7 @@ def sample_glow(
     material = evaluate_material(table, build_points(triangles, hits, -wi))
     shown = material.emission * material.column["present"][:, None]
     radiance = shown / np.where(pdf > 0.0, pdf, np.inf)[:, None]
-    return LightSample(wi, distance, radiance, pdf)
+    return LightSample(wi, distance, radiance, pdf, triangles.copy[index])
 
 
 def pdf_glow(

@@ -73,6 +73,7 @@ class ReferenceJob:
                 "rays_shadow": film.rays.shadow,
                 "rays_bounce": film.rays.bounce,
                 "rejected_samples": film.rejected_samples,
+                "clamped": film.rays.clamped,
                 "kernel_set": "numpy",
             }
 

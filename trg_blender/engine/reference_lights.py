@@ -29,6 +29,8 @@ class LightSample:
     """(n, 3) radiance over density; for a delta light the irradiance that it gives a facing surface"""
     pdf: Float64
     """(n,) per steradian; inf for a delta"""
+    copy: NDArray[np.int64] | None = None
+    """(n,) the copy of a mesh that shines; None for lights"""
 
 
 @dataclass(frozen=True, slots=True)

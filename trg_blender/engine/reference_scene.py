@@ -7,6 +7,7 @@ that triangle in float64, so that only the choice of the triangle rests on singl
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
@@ -15,9 +16,10 @@ from numpy.typing import NDArray
 
 from .reference_math import dot, normalize
 from .reference_shapes import Shape, each_copy, meet_shape, place_shapes
-from .scene_arrays import Float64, InstanceArrays, MeshArrays, SceneArrays
+from .scene_arrays import EVERY_RAY, Float64, InstanceArrays, MeshArrays, SceneArrays
 
 MISS = -1
+MOST_HIDDEN = 4096
 FAR = 1e37
 """Where Embree's rays end."""
 
@@ -58,6 +60,8 @@ class Rays:
     """(n, 3) unit"""
     far: Float64
     """(n,) hits beyond it do not count"""
+    mask: NDArray[np.uint8] | None = None
+    """(n,) bits of the instances that they meet; None: all"""
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,9 +80,24 @@ class TracedScene:
     triangles: Triangles
     embree: Any
     """embreex.rtcore_scene.EmbreeScene, or None when there is no triangle"""
+    masks: NDArray[np.uint8] | None = None
+    """(copies,) of the instances; None where all rays meet all"""
 
     def intersect(self, rays: Rays) -> Hits:
-        """The nearest hit of each ray."""
+        """The nearest hit of each ray with what it may meet."""
+        hits = self._nearest(rays)
+        if self.masks is None or rays.mask is None:
+            return hits
+        for _ in range(MOST_HIDDEN):
+            met = hits.triangle != MISS
+            unseen = (self.masks[self.triangles.copy[hits.triangle]] & rays.mask) == 0
+            rows = np.flatnonzero(met & unseen)
+            if len(rows) == 0:
+                break
+            hits = look_beyond(self._nearest, rays, hits, rows)
+        return hits
+
+    def _nearest(self, rays: Rays) -> Hits:
         count = len(rays.origin)
         if self.embree is None or count == 0:
             miss = np.full(count, MISS, dtype=np.int64)
@@ -90,6 +109,8 @@ class TracedScene:
 
     def occluded(self, rays: Rays) -> NDArray[np.bool_]:
         """Whether anything stands between origin and `far`."""
+        if self.masks is not None:
+            return np.asarray(self.intersect(rays).triangle != MISS)
         hidden = np.zeros(len(rays.origin), dtype=bool)
         if self.embree is not None and len(rays.origin):
             hidden |= np.asarray(self._run(rays, "OCCLUDED", output=False)) != MISS
@@ -133,6 +154,29 @@ def nearer_shapes(triangles: Triangles, rays: Rays, hits: Hits) -> Hits:
     return hits
 
 
+def look_beyond(find: Callable[[Rays], Hits], rays: Rays, hits: Hits, rows: NDArray[np.int64]) -> Hits:
+    """`hits` with those of `rows` replaced by what `find` finds behind them; distances are from the rays'
+    start."""
+    origin, direction = rays.origin[rows], rays.direction[rows]
+    place = origin + hits.t[rows, None] * direction
+    step = hits.t[rows] + 1e-6 + 4e-6 * np.abs(place).max(axis=1, initial=0.0)
+    left = np.maximum(rays.far[rows] - step, 0.0)
+    mask = None if rays.mask is None else rays.mask[rows]
+    found = find(Rays(origin + step[:, None] * direction, direction, left, mask))
+    parts = [part.copy() for part in (hits.triangle, hits.t, hits.u, hits.v)]
+    for part, new in zip(parts, (found.triangle, found.t + step, found.u, found.v), strict=True):
+        part[rows] = new
+    return Hits(*parts)
+
+
+def masks_of(scene: SceneArrays) -> NDArray[np.uint8] | None:
+    """(copies,) of all instances; None where all rays meet all."""
+    if all(one.mask == EVERY_RAY for one in scene.instances):
+        return None
+    copies = [len(one.transforms) for one in scene.instances]
+    return np.repeat(np.array([one.mask for one in scene.instances], np.uint8), copies)
+
+
 def with_shapes(triangles: Triangles, shapes: tuple[Shape, ...]) -> Triangles:
     count = len(shapes)
     zero = np.zeros((count, 3, 3))
@@ -165,11 +209,11 @@ def build_traced_scene(scene: SceneArrays) -> TracedScene:
     triangles = join_triangles(parts)
     shapes = tuple(place_shapes(scene))
     if len(triangles.area) == 0:
-        return TracedScene(with_shapes(triangles, shapes), None)
+        return TracedScene(with_shapes(triangles, shapes), None, masks_of(scene))
     embree = EmbreeScene(robust=True)
     indices = np.arange(3 * len(triangles.area), dtype=np.int32).reshape(-1, 3)
     TriangleMesh(embree, np.ascontiguousarray(triangles.corners.reshape(-1, 3), dtype=np.float32), indices)
-    return TracedScene(with_shapes(triangles, shapes), embree)
+    return TracedScene(with_shapes(triangles, shapes), embree, masks_of(scene))
 
 
 def bake_instance(mesh: MeshArrays, instance: InstanceArrays, transform: Float64, copy: int) -> Triangles:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
-from .reference_scene import MISS, Hits, Rays, TracedScene
+from .reference_scene import MISS, Hits, Rays, TracedScene, look_beyond
 from .reference_surface import MaterialTable, build_surface
 from .scene_arrays import Float64
 
@@ -24,12 +26,28 @@ def sheet_values(table: MaterialTable, hits: Hits, direction: Float64) -> tuple[
     return material.column["present"], material.color("through")
 
 
+@dataclass(frozen=True, slots=True)
+class Straight:
+    """Rays that may go straight through so many surfaces; the next counts as solid."""
+
+    rays: Rays
+    left: NDArray[np.int64]
+    """(n,)"""
+
+
+def straight(rays: Rays, left: NDArray[np.int64] | None) -> Straight:
+    """`left` None: through as many as there are."""
+    return Straight(rays, np.full(len(rays.far), MOST_SHEETS) if left is None else left)
+
+
 def pass_sheets(
-    traced: TracedScene, table: MaterialTable, rays: Rays, hits: Hits, rng: np.random.Generator
-) -> tuple[Hits, Float64]:
-    """Where rays are stopped in the end, by chance at each sheet, and the colour (n, 3) they take on."""
-    tint = np.ones((len(hits.t), 3))
-    open_rows = np.flatnonzero(hits.triangle != MISS)
+    traced: TracedScene, table: MaterialTable, way: Straight, hits: Hits, rng: np.random.Generator
+) -> tuple[Hits, Float64, NDArray[np.int64]]:
+    """Where rays are stopped in the end, by chance at each sheet, the colour (n, 3) they take on, and
+    how many sheets (n,) they passed."""
+    rays = way.rays
+    tint, passed = np.ones((len(hits.t), 3)), np.zeros(len(hits.t), np.int64)
+    open_rows = np.flatnonzero((hits.triangle != MISS) & (way.left > 0))
     for _ in range(MOST_SHEETS):
         if len(open_rows) == 0:
             break
@@ -38,23 +56,29 @@ def pass_sheets(
         passes = rng.random(len(open_rows)) >= alpha
         open_rows = open_rows[passes]
         tint[open_rows] *= through[passes]
-        hits = beyond(traced, rays, hits, open_rows)
-        open_rows = open_rows[hits.triangle[open_rows] != MISS]
-    return hits, tint
+        passed[open_rows] += 1
+        hits = look_beyond(traced.intersect, rays, hits, open_rows)
+        stops = (hits.triangle[open_rows] == MISS) | (passed[open_rows] >= way.left[open_rows])
+        open_rows = open_rows[~stops]
+    return hits, tint, passed
 
 
-def transmittance(traced: TracedScene, table: MaterialTable, rays: Rays) -> Float64:
+def transmittance(traced: TracedScene, table: MaterialTable, way: Straight) -> Float64:
     """(n, 3) of the light along rays from start to far end; 0 behind something solid."""
+    rays = way.rays
     light = np.ones((len(rays.far), 3))
     hits = traced.intersect(rays)
     rows = np.flatnonzero(hits.triangle != MISS)
-    for _ in range(MOST_SHEETS):
+    for sheet in range(MOST_SHEETS):
+        spent = way.left[rows] <= sheet
+        light[rows[spent]] = 0.0
+        rows = rows[~spent]
         if len(rows) == 0:
             return light
         alpha, through = sheet_values(table, pick(hits, rows), rays.direction[rows])
         light[rows] *= (1.0 - alpha)[:, None] * through
         rows = rows[np.any(light[rows] > 0.0, axis=1)]
-        hits = beyond(traced, rays, hits, rows)
+        hits = look_beyond(traced.intersect, rays, hits, rows)
         rows = rows[hits.triangle[rows] != MISS]
     light[rows] = 0.0
     return light
@@ -66,12 +90,4 @@ def pick(hits: Hits, rows: NDArray[np.int64]) -> Hits:
 
 def beyond(traced: TracedScene, rays: Rays, hits: Hits, rows: NDArray[np.int64]) -> Hits:
     """`hits` with those of `rows` replaced by what lies behind them; distances are from the rays' start."""
-    origin, direction = rays.origin[rows], rays.direction[rows]
-    place = origin + hits.t[rows, None] * direction
-    step = hits.t[rows] + 1e-6 + 4e-6 * np.abs(place).max(axis=1, initial=0.0)
-    left = np.maximum(rays.far[rows] - step, 0.0)
-    found = traced.intersect(Rays(origin + step[:, None] * direction, direction, left))
-    parts = [part.copy() for part in (hits.triangle, hits.t, hits.u, hits.v)]
-    for part, new in zip(parts, (found.triangle, found.t + step, found.u, found.v), strict=True):
-        part[rows] = new
-    return Hits(*parts)
+    return look_beyond(traced.intersect, rays, hits, rows)

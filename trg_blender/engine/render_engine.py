@@ -26,6 +26,7 @@ from .kept_scene import KeptScene
 from .mfaa import blend_frames
 from .native import ACCELERATORS
 from .pace import Pace
+from .path_rules import PathRules
 from .picture_stamp import stamp_fields
 from .report import Progress, format_progress, with_source
 from .result import Failure, border_of, records, register_passes, stamp_mattes, wanted_passes, write_pixels
@@ -341,6 +342,7 @@ def settings_of(
         filter_width=1.0 if own.filter_type == "BOX" else own.filter_width,
         seed=own.seed,
         max_bounces=own.max_bounces,
+        rules=rules_of(own),
         threads=scene.render.threads if scene.render.threads_mode == "FIXED" else 0,
         device=device,
         accel=accel,
@@ -358,6 +360,20 @@ def preview_settings(depsgraph: bpy.types.Depsgraph) -> RenderSettings:
     modes = requested_modes(depsgraph.scene)
     settings = settings_of(scene, depsgraph.view_layer, (1, 1), modes, [])
     return replace(settings, samples=scene.trg.preview_samples)
+
+
+def rules_of(own: bpy.types.PropertyGroup) -> PathRules:
+    """What of the panel "Light Paths" cuts paths short."""
+    return PathRules(
+        own.diffuse_bounces,
+        own.glossy_bounces,
+        own.transmission_bounces,
+        own.transparent_bounces,
+        own.clamp_direct,
+        own.clamp_indirect,
+        own.caustics_reflective,
+        own.caustics_refractive,
+    )
 
 
 def choose_device(wish: str | int | None, warnings: list[str]) -> str:

@@ -109,7 +109,7 @@ def build_report(facts: RenderFacts) -> dict[str, Any]:
             "cut_rays": job.get("cut_rays", 0),
             "reprojected_pixels": 0,
             "degenerate_triangles": facts.build.get("degenerate_triangles"),
-            "clamped": 0,
+            "clamped": job.get("clamped", 0),
         },
         "warnings": [*scene.warnings, *facts.warnings, *unmet_target(facts), *rejections(facts)],
     }
@@ -171,8 +171,14 @@ def error_section(facts: RenderFacts) -> dict[str, Any]:
         "target": facts.settings.rmse or None,
         "stopped_by": facts.job["stopped_by"],
         "adaptive": facts.settings.adaptive,
+        "biases": biases(facts.settings),
         "history": history,
     }
+
+
+def biases(settings: RenderSettings) -> list[str]:
+    """What makes the picture's expectation another than that of all light: not part of `rmse`."""
+    return [f"max bounces: {settings.max_bounces}", *settings.rules.describe()]
 
 
 def is_reliable(facts: RenderFacts) -> bool:

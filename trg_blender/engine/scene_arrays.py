@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from .path_rules import NO_RULES, PathRules
 from .texture_ops import ProgramArrays
 
 if TYPE_CHECKING:
@@ -34,6 +35,8 @@ SHAPES = ("triangles", "sphere", "plane")
 """what a mesh may be: its triangles, the unit sphere round the origin, the infinite plane z = 0"""
 INTERFACES = ("clear", "stained", "refraction_only")
 """what reflection and refraction of a transmitting material look like: docs/architecture.md, section 4"""
+CAMERA_RAY, DIFFUSE_RAY, GLOSSY_RAY, TRANSMISSION_RAY, SHADOW_RAY, EVERY_RAY = 1, 2, 4, 8, 16, 255
+"""bits of InstanceArrays.masks: rays by the scattering that sent them on, and those towards lights"""
 CAMERA_KINDS = ("perspective", "orthographic", "panorama")
 
 
@@ -109,6 +112,10 @@ class InstanceArrays:
     motion: Float32 | None = None
     """(k, keys, 3, 4) transforms at even steps while the shutter is open, straight lines between;
     `transforms` are those of the middle. None: nothing moves"""
+    mask: int = EVERY_RAY
+    """bits of the rays that meet the copies"""
+    holdout: bool = False
+    """the camera sees a hole where they are"""
 
 
 @dataclass(slots=True)
@@ -217,6 +224,8 @@ class Material:
     """multiplies the sheen"""
     sheen_roughness_texture: int = -1
     diffuse_roughness_texture: int = -1
+    holdout: int = 0
+    """1: the camera sees a hole, everyone else black"""
 
 
 @dataclass(slots=True)
@@ -354,6 +363,7 @@ class RenderSettings:
     adaptive: bool = False
     """more samples where there is more noise"""
     max_bounces: int = 12
+    rules: PathRules = NO_RULES
     threads: int = 0
     """0: all cores"""
     device: str = "cpu"

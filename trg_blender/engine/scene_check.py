@@ -12,6 +12,7 @@ from .coincidence import coincidence_warnings
 from .errors import SceneError
 from .motion import MOST_KEYS
 from .passes import PASS_NAMES
+from .path_rules import wrong_rules
 from .scene_arrays import (
     CAMERA_KINDS,
     LIGHT_KINDS,
@@ -57,6 +58,8 @@ def check_settings(settings: RenderSettings) -> None:
         raise SceneError("the reference renderer stops by samples or time, not by error")
     if settings.max_bounces < 0:
         raise SceneError(f"max_bounces is {settings.max_bounces}: it must be 0 or more")
+    for line in wrong_rules(settings.rules):
+        raise SceneError(line)
     if settings.aa not in ANTIALIASINGS:
         raise SceneError(f"antialiasing {settings.aa!r} is unknown; there are {', '.join(ANTIALIASINGS)}")
     if not 1 <= settings.aa_side <= FINEST_GRID:

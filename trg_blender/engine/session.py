@@ -18,12 +18,14 @@ from .antialiasing import is_deterministic, with_pattern_samples
 from .chance_light import error_in_hits
 from .devices import INTEGRATORS, Unavailable, require_device
 from .errors import SceneError
+from .holes import classic_warnings, with_holes
 from .image_error import Evidence, PictureError, estimate_error
 from .kept_scene import KeptScene
 from .mfaa import SampledFrame
 from .native import ACCELERATORS, load_native
 from .native_scene import build_native_scene
 from .passes import KERNEL_PASSES, PassSource, film_shape, job_passes, read_combined, read_passes
+from .path_rules import NO_RULES
 from .report import HistoryEntry, Progress, RenderFacts, build_report, seconds_left, seconds_to_target
 from .scene_arrays import Float32, Float64, RenderSettings, SceneArrays
 from .scene_check import check_camera, check_scene, check_settings
@@ -92,6 +94,7 @@ def start(scene: SceneArrays, settings: RenderSettings, kept: KeptScene | None =
     check_settings(settings)
     settings = with_pattern_samples(settings)
     warnings = check_picture(scene, kept)
+    scene = with_holes(scene)
     require_device(settings.device)
     if settings.integrator not in INTEGRATORS:
         raise Unavailable(f"integrator {settings.integrator}: not built yet in this version")
@@ -99,7 +102,10 @@ def start(scene: SceneArrays, settings: RenderSettings, kept: KeptScene | None =
         allowed = tuple(name for name in settings.passes if name in CLASSIC_PASSES)
         dropped = [name for name in settings.passes if name not in allowed]
         warnings += [f"pass {name}: not with the classic integrator" for name in dropped]
-        settings = replace(settings, passes=allowed)
+        warnings += classic_warnings(scene)
+        if settings.rules.bite(settings.max_bounces):
+            warnings.append("bounces by kind, clamps and caustics: not with the classic integrator")
+        settings = replace(settings, passes=allowed, rules=NO_RULES)
     asked = replace(settings, passes=job_passes(scene, settings))
     if settings.device == "embree":
         warnings += missing_passes(settings)
@@ -137,6 +143,7 @@ def start_native(scene: SceneArrays, settings: RenderSettings, kept: KeptScene |
             settings.seconds,
             settings.rmse,
             settings.adaptive,
+            settings.rules.packed(settings.max_bounces),
         )
     except ValueError as refusal:
         raise SceneError(str(refusal)) from refusal
@@ -159,7 +166,7 @@ def start_reference(scene: SceneArrays, settings: RenderSettings) -> StartedJob:
     from .reference_path import build_world
 
     begin = time.perf_counter()
-    world = build_world(scene, settings.width)
+    world = build_world(scene, settings.width, settings.rules)
     baked = sum(
         len(one.transforms) * len(scene.meshes[one.mesh].triangles)
         for one in scene.instances

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import bpy
 
 from ..engine.run_text import ENGINE_ID
-from . import pass_panels, report_panel
+from . import light_path_panels, pass_panels, report_panel
 from .engine_panel import EnginePanel
 from .parameter_rows import draw_parameters
 
@@ -81,7 +81,7 @@ class TRG_RENDER_PT_sampling(_RenderPanel, bpy.types.Panel):
         row = layout.row()
         row.enabled = own.filter_type != "BOX"
         row.prop(own, "filter_width")
-        for name in ("max_bounces", "seed", "device", "accel", "integrator"):
+        for name in ("seed", "device", "accel", "integrator"):
             layout.prop(own, name)
         _draw_antialiasing(layout, own)
         column = layout.column()
@@ -113,6 +113,7 @@ CLASSES = (
     TRG_RENDER_PT_program,
     TRG_RENDER_PT_parameters,
     TRG_RENDER_PT_sampling,
+    *light_path_panels.CLASSES,
     *report_panel.CLASSES,
     *pass_panels.CLASSES,
 )

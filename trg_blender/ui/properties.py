@@ -8,6 +8,7 @@ import bpy
 
 from .. import lang
 from ..engine import run_text
+from ..engine.path_rules import NO_LIMIT
 
 DEVICES = (
     ("auto", "Auto", "The fastest device of this machine"),
@@ -115,6 +116,54 @@ class TRGSceneSettings(bpy.types.PropertyGroup):
         default=12,
         min=0,
         max=1024,
+    )
+    diffuse_bounces: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Diffuse",
+        description="Diffuse bounces after the first; 1024 is no limit beside the total",
+        default=NO_LIMIT,
+        min=0,
+        max=NO_LIMIT,
+    )
+    glossy_bounces: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Glossy",
+        description="Glossy bounces after the first; 1024 is no limit beside the total",
+        default=NO_LIMIT,
+        min=0,
+        max=NO_LIMIT,
+    )
+    transmission_bounces: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Transmission",
+        description="Transmission bounces after the first; 1024 is no limit beside the total",
+        default=NO_LIMIT,
+        min=0,
+        max=NO_LIMIT,
+    )
+    transparent_bounces: bpy.props.IntProperty(  # type: ignore[valid-type]
+        name="Transparent",
+        description="Surfaces that rays go straight through; 1024 is no limit",
+        default=NO_LIMIT,
+        min=0,
+        max=NO_LIMIT,
+    )
+    clamp_direct: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Direct Light",
+        description="Limit for what one sample of direct light brings, 0 is none: less noise, less light",
+        default=0.0,
+        min=0.0,
+        soft_max=100.0,
+    )
+    clamp_indirect: bpy.props.FloatProperty(  # type: ignore[valid-type]
+        name="Indirect Light",
+        description="Limit for what one sample of indirect light brings, 0 is none: less noise, less light",
+        default=0.0,
+        min=0.0,
+        soft_max=100.0,
+    )
+    caustics_reflective: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Reflective", description="Light that surfaces reflect onto diffuse ones", default=True
+    )
+    caustics_refractive: bpy.props.BoolProperty(  # type: ignore[valid-type]
+        name="Refractive", description="Light that surfaces refract onto diffuse ones", default=True
     )
     filter_type: bpy.props.EnumProperty(  # type: ignore[valid-type]
         name="Pixel Filter", description="How the light about a pixel makes its colour", items=FILTERS

@@ -86,7 +86,8 @@ def scatters(row: Material) -> bool:
     has_base = row.base_texture >= 0 or row.base_r > 0 or row.base_g > 0 or row.base_b > 0
     has_sheen = max(row.sheen_r, row.sheen_g, row.sheen_b) > 0
     has_coat = row.coat > 0 or row.coat_texture >= 0
-    return row.alpha > 0.0 and (has_base or row.specular > 0 or has_sheen or has_coat)
+    has_lobes = has_base or row.specular > 0 or has_sheen or has_coat
+    return row.alpha > 0.0 and (row.holdout == 1 or has_lobes)
 
 
 def _with_surface(row: Material, whole: Material) -> Material:

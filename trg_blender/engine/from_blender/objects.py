@@ -8,12 +8,29 @@ import bpy
 import numpy as np
 
 from ..reference_patterns import hash_words
-from ..scene_arrays import Float32
+from ..scene_arrays import (
+    CAMERA_RAY,
+    DIFFUSE_RAY,
+    EVERY_RAY,
+    GLOSSY_RAY,
+    SHADOW_RAY,
+    TRANSMISSION_RAY,
+    Float32,
+)
 from .media import AIR, Medium, claimed_medium
 from .shapes import claimed_shape
 
 WITHOUT_SURFACE = {"EMPTY", "CAMERA", "ARMATURE", "LATTICE", "SPEAKER", "CURVE", "FONT", "META", "SURFACE"}
 """Kinds that show nothing themselves; the surface of the last four arrives as an instance of a mesh."""
+
+RAY_BITS = {
+    "visible_camera": CAMERA_RAY,
+    "visible_diffuse": DIFFUSE_RAY,
+    "visible_glossy": GLOSSY_RAY,
+    "visible_transmission": TRANSMISSION_RAY,
+    "visible_shadow": SHADOW_RAY,
+}
+BOUNCES = ("visible_diffuse", "visible_glossy", "visible_transmission")
 
 KIND_NAMES = {
     "VOLUME": "volume",
@@ -34,6 +51,9 @@ class MeshGroup:
     origin: str
     shape: str
     """what the object's tags say that its mesh stands for: one of SHAPES"""
+    mask: int = EVERY_RAY
+    """bits of the rays that meet it"""
+    holdout: bool = False
     rows: list[int] = field(default_factory=list)
     """indices into Found.transforms"""
     owners: set[str] = field(default_factory=set)
@@ -74,13 +94,16 @@ def find_objects(depsgraph: bpy.types.Depsgraph, warnings: list[str]) -> Found:
         if kind == "MESH":
             if not instance.is_instance:
                 randoms[row] = _random_of_name(owner.name)
-            group = _add_mesh(groups, owner, row, warnings)
+            seen = _seen_by(instance, depsgraph.view_layer)
+            group = _add_mesh(groups, owner, (row, *seen), warnings)
             group.owners.add(owner.name)
             if instance.is_instance and instance.parent is not None:
                 group.owners.add(instance.parent.name)
         elif kind == "LIGHT":
             source = instance.instance_object if instance.is_instance else owner
             lights.append((source, row))
+            if not all(getattr(owner, name) for name in BOUNCES):
+                refused.add(f"light {owner.name!r}: visibility by kind of ray is not supported")
         else:
             refused.add(f"object {owner.name!r}: a {KIND_NAMES.get(kind, kind.lower())} is not rendered")
     warnings.extend(sorted(refused))
@@ -88,23 +111,41 @@ def find_objects(depsgraph: bpy.types.Depsgraph, warnings: list[str]) -> Found:
 
 
 def _add_mesh(
-    groups: dict[tuple[int, ...], MeshGroup], owner: bpy.types.Object, row: int, warnings: list[str]
+    groups: dict[tuple[int, ...], MeshGroup],
+    owner: bpy.types.Object,
+    found: tuple[int, int, bool],
+    warnings: list[str],
 ) -> MeshGroup:
+    """`found`: the instance's row, by which rays it is met, and whether it is a hole."""
+    row, mask, holdout = found
     mesh = owner.data
     materials = tuple(slot.material for slot in owner.material_slots) or (None,)
     shape = claimed_shape(owner)
     medium = claimed_medium(owner)
     pointers = (0 if each is None else each.as_pointer() for each in materials)
-    key = (mesh.as_pointer(), hash((shape, medium)), *pointers)
+    key = (mesh.as_pointer(), hash((shape, medium, mask, holdout)), *pointers)
     group = groups.get(key)
     if group is None:
-        group = groups[key] = MeshGroup(mesh, materials, owner.name, shape, medium=medium)
-        if owner.is_holdout or owner.is_shadow_catcher:
-            warnings.append(f"object {owner.name!r}: rendered as a plain surface, without holdout")
-        if not owner.visible_camera:
-            warnings.append(f"object {owner.name!r}: visibility by kind of ray is not supported")
+        group = MeshGroup(mesh, materials, owner.name, shape, mask, holdout, medium=medium)
+        groups[key] = group
+        if owner.is_shadow_catcher:
+            warnings.append(f"object {owner.name!r}: a shadow catcher is rendered as a plain surface")
     group.rows.append(row)
     return group
+
+
+def _seen_by(instance: bpy.types.DepsgraphObjectInstance, layer: bpy.types.ViewLayer) -> tuple[int, bool]:
+    """Bits of the rays that meet an instance, and whether the camera sees a hole there. What an instancer is
+    hidden from, its instances are too."""
+    owner, mask = instance.object, EVERY_RAY
+    for each in (owner, instance.parent if instance.is_instance else None):
+        for name, bit in RAY_BITS.items():
+            if each is not None and not getattr(each, name):
+                mask &= ~bit
+    named = (instance.parent or owner).original if instance.is_instance else owner.original
+    if named.indirect_only_get(view_layer=layer):
+        mask &= ~CAMERA_RAY
+    return mask, owner.is_holdout or named.holdout_get(view_layer=layer)
 
 
 def _random_of_name(name: str) -> float:

@@ -302,6 +302,10 @@ def _safe_ior(ior: float) -> float:
     return ior if ior >= 1e-3 else 1e-3
 
 
+def _holdout(_reader: ShaderReader, _node: bpy.types.Node) -> Material:
+    return replace(BLACK, holdout=1)
+
+
 _READERS: dict[str, Callable[[ShaderReader, bpy.types.Node], Material]] = {
     "BSDF_PRINCIPLED": _principled,
     "BSDF_DIFFUSE": _diffuse,
@@ -313,4 +317,5 @@ _READERS: dict[str, Callable[[ShaderReader, bpy.types.Node], Material]] = {
     "BSDF_TRANSLUCENT": _translucent,
     "BSDF_TRANSPARENT": _transparent,
     "EMISSION": _emission,
+    "HOLDOUT": _holdout,
 }

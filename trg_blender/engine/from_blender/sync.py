@@ -164,18 +164,20 @@ class _Meshes:
                     randoms[has_volume],
                     tuple(identities[has_volume]) if len(identities) else (),
                     self._motion(group, kept),
+                    group.mask,
+                    group.holdout,
                 )
             )
         for row in np.flatnonzero(~has_volume):
             who = tuple(identities[row : row + 1])
-            self._add_flat(mesh, transforms[row], materials, (group.origin, who))
+            self._add_flat(mesh, transforms[row], materials, (group, who))
 
     def _add_flat(
         self,
         mesh: MeshArrays,
         transform: Float32,
         materials: np.ndarray,
-        named: tuple[str, tuple[Identity, ...]],
+        named: tuple[MeshGroup, tuple[Identity, ...]],
     ) -> None:
         """One instance scaled to a sheet, a line or a point, as a mesh of its own in world space."""
         if np.linalg.matrix_rank(transform[:, :3]) < 2:
@@ -185,9 +187,19 @@ class _Meshes:
         baked.attributes = mesh.attributes
         self.arrays.meshes.append(baked)
         identity = np.eye(3, 4, dtype=np.float32)[None]
-        origin, who = named
+        group, who = named
         self.arrays.instances.append(
-            InstanceArrays(len(self.arrays.meshes) - 1, identity, materials, origin, None, who)
+            InstanceArrays(
+                len(self.arrays.meshes) - 1,
+                identity,
+                materials,
+                group.origin,
+                None,
+                who,
+                None,
+                group.mask,
+                group.holdout,
+            )
         )
 
     def _mesh(self, group: MeshGroup, slots: tuple[int, ...]) -> int:
