@@ -67,7 +67,7 @@ def plain_materials(count: int) -> Any:
     names = trg_native.MATERIAL_FIELDS
     plain = {"ior": 1.5, "coat_ior": 1.5, **{name: -1 for name in names if name.endswith("_texture")}}
     plain.update({"interface": 0, "multiscatter": 1, "metal_grazing": 0, "alpha": 1})
-    plain.update({"translucent": 0, "mix_first": 0, "mix_count": 0})
+    plain.update({"translucent": 0, "mix_first": 0, "mix_count": 0, "holdout": 0})
     return np.tile(np.array([plain.get(name, 0.5) for name in names], np.float32), (count, 1))
 
 
@@ -208,6 +208,12 @@ class Fuzzer:
     def set_surroundings(self) -> None:
         """An environment, or the filter of the film."""
         v, scene = self.values, self.scene()
+        if v.flip(0.3):
+            subject = self.subject()
+            scene, count = subject.scene, v.pick((subject.instances, subject.instances, 0, 5))
+            masks = self.values.numbers.integers(0, 256, count).astype(np.uint8)
+            scene.set_visibility(v.spoil(masks), v.spoil(masks & 1), v.flip())
+            return
         if v.flip():
             names = ("box", "gaussian", "blackman_harris", "tent")
             scene.set_filter(v.pick(names), v.pick((1.0, 1.5, 0.01, 1e30, 0.0, np.nan)))
@@ -298,7 +304,7 @@ class Fuzzer:
         scene = self.built_scene()
         job = scene.start_render(
             width, height, v.pick((1, 2, 9, 20, 0)), v.pick((0, 1 << 63)), v.pick((0, 1, 4, 4, -1)),
-            v.threads(), passes, border, *v.stops(),
+            v.threads(), passes, border, *v.stops(), rules=v.rules(),
         )  # fmt: skip
         size = (height, width) if border is None else (border[3] - border[1], border[2] - border[0])
         self.jobs.append((job, size))

@@ -143,8 +143,10 @@ class Values:
     def materials(self, names: tuple[str, ...]) -> Float32:
         table = np.abs(self.floats((self.random.randrange(1, 4), len(names))))
         table[:, 3:] = np.minimum(table[:, 3:], 1)
-        for name in ("ior", "coat_ior"):
-            table[:, names.index(name)] = self.pick((0.5, 1, 1.5, 1e6))
+        table[:, names.index("ior")] = self.pick((0.5, 1, 1.5, 1e6))
+        table[:, names.index("coat_ior")] = self.pick((1, 1.5, 1e6)) if self.flip(0.95) else 0.5
+        table[:, names.index("priority")] = self.pick((0, 0, 1, 2, 1e6))
+        table[:, names.index("holdout")] = self.pick((0, 0, 0, 1)) if self.flip(0.95) else 0.5
         if self.flip():
             table[:, names.index("alpha")] = 1
         self.set_whole(table, names, WHOLE_MATERIAL)
@@ -166,11 +168,30 @@ class Values:
             return ()
         return self.pick((0, 0, 0.01, -1, np.nan)), self.pick((0, 0.1, 1e30, np.inf)), self.flip()
 
+    def rules(self) -> object:
+        """Bounces by kind, clamps, caustics; mostly none."""
+        if self.flip():
+            return None
+        bounces = [self.pick((0, 1, 3, 1 << 20)) for _ in range(4)]
+        clamps = [self.pick((0.0, 0.0, 1.0, 1e-6, 1e30)) for _ in range(2)]
+        wrong = (
+            (-1, *bounces[1:], *clamps, True, True),
+            (1, 2),
+            (*bounces, np.nan, -1.0, True, True),
+            "rules",
+        )
+        return (*bounces, *clamps, self.flip(), self.flip()) if self.flip(0.9) else self.pick(wrong)
+
     def lights(self, names: tuple[str, ...]) -> Float32:
         table = self.floats((self.random.randrange(4), len(names)))
         table[:, 0] = self.numbers.integers(0, 5, len(table))
-        for name in ("radius", "angle"):
+        for name in ("radius", "angle", "spread"):
             table[:, names.index(name)] = np.abs(table[:, names.index(name)])
+        if self.flip(0.9):
+            table[:, names.index("angle")] = np.minimum(table[:, names.index("angle")], 1.5)
+            table[:, names.index("spread")] = np.minimum(table[:, names.index("spread")], 3.14)
+            for name in ("soft", "seen"):
+                table[:, names.index(name)] = self.numbers.integers(0, 2, len(table))
         return table
 
     def spoil(self, array: Any, always: bool = False) -> Any:

@@ -48,7 +48,9 @@ def arrays(scene):
 
 def test_a_medium_fills_its_shape_alone(arrays):
     found = {
-        (round(m.absorption_r, 4), round(m.ior, 4), m.priority) for m in arrays.materials if m.transmission > 0
+        (round(m.absorption_r, 4), round(m.ior, 4), m.priority)
+        for m in arrays.materials
+        if m.transmission > 0
     }
     assert found == {(0.0, 1.5, 0.0), (0.25, 1.33, 1.0), (0.5, 1.5, 1.0)}
     opaque = [m for m in arrays.materials if m.transmission == 0]

@@ -9,13 +9,12 @@ import pytest
 
 from trg_blender.engine.cryptomatte import id_of
 from trg_blender.engine.passes import KERNEL_PASSES
-from trg_blender.engine.scene_arrays import Material
+from trg_blender.engine.scene_arrays import Light, Material
 
 from .render_scenes import (
     GREY,
     POINT,
     Camera,
-    Light,
     Settings,
     add_object,
     finish,

@@ -11,20 +11,11 @@ from trg_blender.stability.runner import FAIL, Plan, run_case, unknown_rows
 
 ENTRIES = {entry.id: entry for entry in CATALOGUE}
 CASES = {f"{case.id} {case.name}": case for case in cases()}
-MISSED = {
-    "S06 warning": "no warning of identical triangles yet",
-    "S07": "media have no priorities (docs/architecture.md, 4)",
-    "S08 overlap": "media have no priorities (docs/architecture.md, 4)",
-}
-"""Cases that fail today, by the beginnings of their names (docs/stability.md)."""
 
 
 @pytest.mark.parametrize("name", CASES)
-def test_no_case_of_the_catalogue_fails(name: str, request: pytest.FixtureRequest):
+def test_no_case_of_the_catalogue_fails(name: str):
     case = CASES[name]
-    for beginning, reason in MISSED.items():
-        if name.startswith(beginning):
-            request.applymarker(pytest.mark.xfail(reason=reason, strict=False))
     findings = list(run_case(ENTRIES[case.id], case, Plan(quick=True, embree=False)))
     assert findings or set(case.subjects) <= {EMBREE, PICTURES}
     failed = [f"{one.subject}: {one.figure} [{one.criterion}]" for one in findings if one.verdict == FAIL]
