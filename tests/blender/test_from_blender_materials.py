@@ -241,3 +241,46 @@ def test_a_missing_image_is_magenta_with_a_warning(nodes):
     _, table = nodes.read(surface)
     assert table.textures.pool.images[0].pixels.ravel().tolist() == [255, 0, 255, 255]
     assert "no/such/file.png" in table.warnings[0]
+
+
+PICTURED = [
+    *(
+        ("BsdfPrincipled", name)
+        for name in (
+            "Coat Tint",
+            "Sheen Tint",
+            "Specular Tint",
+            "Coat Roughness",
+            "Coat IOR",
+            "Coat Normal",
+            "IOR",
+            "Specular IOR Level",
+        )
+    ),
+    ("BsdfMetallic", "Edge Tint"),
+    ("BsdfGlass", "Color"),
+    ("BsdfGlass", "IOR"),
+    ("BsdfDiffuse", "Roughness"),
+    ("BsdfTransparent", "Color"),
+    ("BsdfSheen", "Color"),
+]
+
+
+@pytest.mark.parametrize(("kind", "name"), PICTURED)
+def test_a_texture_that_no_lobe_takes_is_one_warning(nodes, kind, name):
+    shader, picture = nodes.add(kind), nodes.add("TexNoise")
+    nodes.link(picture, shader, name)
+    _, table = nodes.read(shader)
+    (warning,) = table.warnings
+    assert "material 'stuff'" in warning
+    assert f"{name} of node {shader.name!r}" in warning
+
+
+@pytest.mark.parametrize(
+    "name", ["Base Color", "Roughness", "Metallic", "Coat Weight", "Sheen Weight", "Alpha"]
+)
+def test_a_texture_that_a_lobe_takes_is_no_warning(nodes, name):
+    shader, picture = nodes.add("BsdfPrincipled"), nodes.add("TexNoise")
+    nodes.link(picture, shader, name)
+    _, table = nodes.read(shader)
+    assert table.warnings == []

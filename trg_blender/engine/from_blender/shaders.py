@@ -93,6 +93,14 @@ class ShaderReader:
             self.miss(f"a texture on {name} of node {node.name!r}")
         return value
 
+    def plain_color(self, node: bpy.types.Node, name: str) -> Color:
+        """Colour of an input that no texture drives here, each channel at least 0; white where one does."""
+        value, texture = self.color(node, name)
+        if texture >= 0:
+            self.miss(f"a texture on {name} of node {node.name!r}")
+        red, green, blue = (max(channel, 0.0) for channel in value)
+        return red, green, blue
+
     def _value(self, socket: bpy.types.NodeSocket | None) -> tuple[float | Color, int]:
         if socket is None:
             return 0.0, -1
@@ -108,7 +116,10 @@ class ShaderReader:
         socket = input_socket(node, "Normal")
         if socket is None or feeding_socket(socket) is None:
             return -1
-        return self.textures.read(socket, self.owner, self.attributes)[1]
+        constant, texture = self.textures.read(socket, self.owner, self.attributes)
+        if constant is not None:
+            self.miss(f"a constant Normal of node {node.name!r}")
+        return texture
 
 
 def _diffuse(reader: ShaderReader, node: bpy.types.Node) -> Material:
@@ -145,19 +156,16 @@ def _glossy(reader: ShaderReader, node: bpy.types.Node) -> Material:
 def _metallic(reader: ShaderReader, node: bpy.types.Node) -> Material:
     """The F82 tint kind; a conductor given by n and k becomes the colour it has at normal incidence."""
     roughness, roughness_texture = reader.number(node, "Roughness")
-    for name in ("Anisotropy", "Thin Film Thickness"):
-        socket = node.inputs.get(name)
-        if socket is not None and (socket.is_linked or abs(socket.default_value) > 0):
-            reader.miss(f"{name} of node {node.name!r} (Metallic BSDF)")
+    _miss_used(reader, node, ("Anisotropy", "Thin Film Thickness"))
     texture = -1
     if node.fresnel_type == "PHYSICAL_CONDUCTOR":
-        n, k = (reader.color(node, name)[0] for name in ("IOR", "Extinction"))
+        n, k = (reader.plain_color(node, name) for name in ("IOR", "Extinction"))
         base = tuple(((a - 1) ** 2 + b * b) / ((a + 1) ** 2 + b * b) for a, b in zip(n, k, strict=True))
         tint = (1.0, 1.0, 1.0)
         reader.miss(f"the exact Fresnel curve of node {node.name!r} (Metallic BSDF)")
     else:
         base, texture = reader.color(node, "Base Color")
-        tint = reader.color(node, "Edge Tint")[0]
+        tint = reader.plain_color(node, "Edge Tint")
     return Material(
         *base,
         metallic=1.0,
@@ -174,10 +182,9 @@ def _metallic(reader: ShaderReader, node: bpy.types.Node) -> Material:
 
 def _glass(reader: ShaderReader, node: bpy.types.Node) -> Material:
     """Glass BSDF tints both ways by its colour, Refraction BSDF has one; the model takes the square."""
-    base, texture = reader.color(node, "Color")
-    if texture >= 0:
-        reader.miss(f"a texture on Color of node {node.name!r}")
+    base = reader.plain_color(node, "Color")
     roughness, roughness_texture = reader.number(node, "Roughness")
+    _miss_used(reader, node, ("Thin Film Thickness",))
     kind = "refraction_only" if node.type == "BSDF_REFRACTION" else "stained"
     return Material(
         *(channel * channel for channel in base),
@@ -192,17 +199,23 @@ def _glass(reader: ShaderReader, node: bpy.types.Node) -> Material:
 
 
 def _transparent(reader: ShaderReader, node: bpy.types.Node) -> Material:
-    color, _ = reader.color(node, "Color")
-    red, green, blue = (_share(channel) for channel in color)
+    red, green, blue = (_share(channel) for channel in reader.plain_color(node, "Color"))
     return replace(BLACK, alpha=0.0, through_r=red, through_g=green, through_b=blue)
 
 
 def _sheen(reader: ShaderReader, node: bpy.types.Node) -> Material:
     if node.distribution != "MICROFIBER":
         reader.miss(f"distribution {node.distribution} of node {node.name!r} (Sheen BSDF)")
-    color, _ = reader.color(node, "Color")
+    color = reader.plain_color(node, "Color")
     roughness = _share(reader.plain_number(node, "Roughness"))
-    return replace(BLACK, sheen_r=color[0], sheen_g=color[1], sheen_b=color[2], sheen_roughness=roughness)
+    return replace(
+        BLACK,
+        sheen_r=color[0],
+        sheen_g=color[1],
+        sheen_b=color[2],
+        sheen_roughness=roughness,
+        normal_texture=reader.normal(node),
+    )
 
 
 def _emission(reader: ShaderReader, node: bpy.types.Node) -> Material:
@@ -217,16 +230,13 @@ def _translucent(reader: ShaderReader, node: bpy.types.Node) -> Material:
 
 
 def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
-    for name in UNUSED_WHEN_ZERO:
-        socket = node.inputs.get(name)
-        if socket is not None and (socket.is_linked or float(socket.default_value) > 0):
-            reader.miss(f"{name} of node {node.name!r} (Principled BSDF)")
+    _miss_used(reader, node, UNUSED_WHEN_ZERO)
     base, base_texture = reader.color(node, "Base Color")
     roughness, roughness_texture = reader.number(node, "Roughness")
     metallic, metallic_texture = reader.number(node, "Metallic")
     emission, emission_texture = reader.glow(node, "Emission Color", "Emission Strength")
     alpha, alpha_texture = reader.number(node, "Alpha")
-    tint, _ = reader.color(node, "Specular Tint")
+    tint = reader.plain_color(node, "Specular Tint")
     transmission, transmission_texture = reader.number(node, "Transmission Weight")
     return replace(
         _layers(reader, node),
@@ -246,9 +256,9 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
         roughness_texture=roughness_texture,
         metallic_texture=metallic_texture,
         emission_texture=emission_texture,
-        specular_tint_r=max(tint[0], 0.0),
-        specular_tint_g=max(tint[1], 0.0),
-        specular_tint_b=max(tint[2], 0.0),
+        specular_tint_r=tint[0],
+        specular_tint_g=tint[1],
+        specular_tint_b=tint[2],
         multiscatter=_multiscatter(node),
         alpha=_share(alpha),
         alpha_texture=alpha_texture,
@@ -258,8 +268,8 @@ def _principled(reader: ShaderReader, node: bpy.types.Node) -> Material:
 
 def _layers(reader: ShaderReader, node: bpy.types.Node) -> Material:
     """Coat, sheen and the roughness of the diffuse base of a Principled BSDF; the rest as by default."""
-    coat_tint, _ = reader.color(node, "Coat Tint")
-    sheen_tint, _ = reader.color(node, "Sheen Tint")
+    coat_tint = reader.plain_color(node, "Coat Tint")
+    sheen_tint = reader.plain_color(node, "Sheen Tint")
     sheen, sheen_texture = reader.number(node, "Sheen Weight")
     sheen = 1.0 if sheen_texture >= 0 else max(sheen, 0.0)
     coat, coat_texture = reader.number(node, "Coat Weight")
@@ -275,12 +285,12 @@ def _layers(reader: ShaderReader, node: bpy.types.Node) -> Material:
         coat_texture=coat_texture,
         coat_roughness=_share(reader.plain_number(node, "Coat Roughness")),
         coat_ior=max(reader.plain_number(node, "Coat IOR"), 1.0),
-        coat_tint_r=max(coat_tint[0], 0.0),
-        coat_tint_g=max(coat_tint[1], 0.0),
-        coat_tint_b=max(coat_tint[2], 0.0),
-        sheen_r=sheen * max(sheen_tint[0], 0.0),
-        sheen_g=sheen * max(sheen_tint[1], 0.0),
-        sheen_b=sheen * max(sheen_tint[2], 0.0),
+        coat_tint_r=coat_tint[0],
+        coat_tint_g=coat_tint[1],
+        coat_tint_b=coat_tint[2],
+        sheen_r=sheen * sheen_tint[0],
+        sheen_g=sheen * sheen_tint[1],
+        sheen_b=sheen * sheen_tint[2],
         sheen_texture=sheen_texture,
         sheen_roughness=_share(fibres),
         sheen_roughness_texture=fibres_texture,
@@ -292,6 +302,14 @@ def _multiscatter(node: bpy.types.Node) -> float:
     if node.bl_idname == "ShaderNodeBsdfRefraction":
         return 0.0
     return 1.0 if node.distribution == "MULTI_GGX" else 0.0
+
+
+def _miss_used(reader: ShaderReader, node: bpy.types.Node, names: tuple[str, ...]) -> None:
+    """Notes those of the inputs `names` that are linked or not zero."""
+    for name in names:
+        socket = node.inputs.get(name)
+        if socket is not None and (socket.is_linked or float(socket.default_value) != 0.0):
+            reader.miss(f"{name} of node {node.name!r} ({node.bl_label})")
 
 
 def _share(value: float) -> float:

@@ -20,9 +20,7 @@ def read_absorption(reader: ShaderReader, output: bpy.types.Node) -> Color:
     if node.type != "VOLUME_ABSORPTION":
         reader.miss(f"node {node.name!r} ({node.bl_label or node.type}) in the Volume socket")
         return (0.0, 0.0, 0.0)
-    color, texture = reader.color(node, "Color")
-    if texture >= 0:
-        reader.miss(f"a texture on Color of node {node.name!r}")
+    color = reader.plain_color(node, "Color")
     density = max(reader.plain_number(node, "Density"), 0.0)
     red, green, blue = (density * max(1.0 - channel, 0.0) for channel in color)
     return (red, green, blue)
