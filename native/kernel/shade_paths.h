@@ -5,6 +5,7 @@
 #include "kernel/nested_media.h"
 #include "kernel/pass_values.h"
 #include "kernel/path_limits.h"
+#include "shade/horizon.h"
 
 namespace trg {
 
@@ -199,10 +200,13 @@ TRG_FN bool make_vertex(const SceneView& scene, Vec3 wo, Vertex* v, Vec3* normal
     v->row = row;
     *normal = bent_normal<F>(&look, row, *normal);
     if (!(dot(wo, *normal) > 0.0f)) return false;
-    v->frame = make_frame(*normal);
+    Material m = material_at<F>(&look, row);
+    Vec3 up = *normal;
+    if constexpr (has(F, kSmoothNormals) || has(F, kPrograms))
+        if (has_facets(m)) up = bend_to_horizon(up, v->ng, wo);
+    v->frame = make_frame(up);
     const View view{to_local(v->frame, wo), to_local(v->frame, v->ng), facing >= 0.0f,
                     scene.energy};
-    Material m = material_at<F>(&look, row);
     if constexpr (has(F, kMedia))
         if (v->boundary) face_medium(*v->boundary, view.outside, row == s.material, &m);
     if constexpr (has(F, kLimits)) drop_caustics(&m, v);

@@ -237,6 +237,16 @@ def _mirrored_and_squashed() -> SceneArrays:
     return scene
 
 
+def _wild_normals() -> SceneArrays:
+    """A ball of mixed facets whose corner normals often mirror the viewer into it, or look away."""
+    scene = studio(replace(MATERIALS["mixture"], coat=0.5, coat_roughness=0.3))
+    mesh = scene.meshes[1]
+    wild = mesh.normals + np.random.default_rng(5).normal(scale=0.7, size=mesh.normals.shape)
+    wild /= np.linalg.norm(wild, axis=-1, keepdims=True)
+    scene.meshes[1] = replace(mesh, normals=wild.astype(np.float32))
+    return scene
+
+
 def _many_copies() -> SceneArrays:
     scene = studio(MATERIALS["plastic"])
     for index in range(25):
@@ -423,6 +433,7 @@ GEOMETRY: dict[str, Callable[[], SceneArrays]] = {
     "priorities": _priorities,
     "textured_layers": _textured_layers,
     "textured": _textured,
+    "wild_normals": _wild_normals,
     "shapes": _shapes,
     "mirrored_and_squashed": _mirrored_and_squashed,
     "many_copies": _many_copies,

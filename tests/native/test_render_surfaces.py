@@ -150,8 +150,8 @@ def test_an_image_shows_texel_by_texel_in_linear_light() -> None:
     for y, x in ((0, 0), (0, 1), (1, 0), (1, 1)):
         assert image[y * 63, x * 63, :3] == pytest.approx(linear[y, x], abs=2e-6)
     assert image[31:33, 31:33, :3].mean(axis=(0, 1)) == pytest.approx(
-            srgb_to_linear(encoded.mean(axis=(0, 1))), abs=5e-3
-        )
+        srgb_to_linear(encoded.mean(axis=(0, 1))), abs=5e-3
+    )
 
 
 def test_a_mirrored_instance_keeps_its_outside() -> None:
@@ -211,3 +211,28 @@ def test_colours_beyond_one_keep_chances_of_directions_positive(kind: dict[str, 
         material = Material(base, base, base, roughness=1.0, multiscatter=1.0, **kind)
         trg_native.bsdf_eval(pack_table([material], MATERIAL_FIELDS)[0], wo, wi, True, value, pdf)
         assert (pdf > 0).all() and (value >= 0).all() and np.isfinite(value).all()
+
+
+def tilted_floor(material: Material, tilt: float, side: float) -> np.ndarray:
+    """Means of a white floor in a white world, normals tilted by `tilt` degrees, seen from `side` degrees."""
+    scene = new_scene([material], world=1.0)
+    vertices, triangles = make_floor(50.0)
+    normal = [np.sin(np.radians(tilt)), 0.0, np.cos(np.radians(tilt))]
+    add_object(scene, (vertices, triangles), normals=np.full((2, 3, 3), normal, np.float32))
+    turn = np.radians(side)
+    axes = np.array([[np.cos(turn), 0, np.sin(turn)], [0, 1, 0], [-np.sin(turn), 0, np.cos(turn)]])
+    camera = Camera(tuple(3 * axes[:, 2]), axes, 0.1)
+    return picture(scene, Settings(8, 8, samples=512), camera)[..., :3].mean(axis=(0, 1))
+
+
+@pytest.mark.parametrize(
+    ("tilt", "side"), [(50, 0), (80, 0), (60, 60), (85, 85), (40, -45), (3, -86), (89, 89)]
+)
+@pytest.mark.parametrize("kind", [{"metallic": 1.0}, {"transmission": 1.0, "ior": 1.5}])
+def test_normals_that_mirror_the_viewer_into_the_surface_lose_no_mirror(tilt, side, kind) -> None:
+    """Row B13: the ideal mirror stays above the horizon, rough facets never give back too much."""
+    mirror = tilted_floor(Material(1.0, 1.0, 1.0, metallic=1.0, roughness=0.0), tilt, side)
+    assert mirror == pytest.approx(1.0, abs=1e-5)
+    for roughness in (0.2, 1.0):
+        rough = tilted_floor(Material(1.0, 1.0, 1.0, roughness=roughness, **kind), tilt, side)
+        assert 0.0 < rough.max() <= 1.005

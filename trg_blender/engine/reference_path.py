@@ -63,7 +63,7 @@ from .reference_sheets import (
     transmittance,
 )
 from .reference_sheets import beyond as sheet_beyond
-from .reference_surface import MaterialTable, Surface, build_material_table, build_surface
+from .reference_surface import MaterialTable, Surface, bend_to_horizon, build_material_table, build_surface
 from .scene_arrays import CAMERA_KINDS, SHADOW_RAY, Float64, SceneArrays
 
 ORTHOGRAPHIC = CAMERA_KINDS.index("orthographic")
@@ -200,6 +200,7 @@ def trace_paths(
         if segment == max_bounces + 1:
             break
         surface, scale = choose_closures(surface, world.materials, rng)
+        surface = bend_to_horizon(surface)
         if segment == 0:
             estimate.hit[paths.index[surface.material.column["holdout"] > 0.0]] = False
         surface, bare, dark = drop_caustics(surface, dark_ways(world.rules, paths.limits))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,6 +20,10 @@ from .scene_arrays import MATERIAL_FIELDS, Float64, SceneArrays, pack_table
 
 GRAZING = 1e-4
 """A shading normal that the viewer sees at a smaller cosine gives way to the geometric one."""
+
+
+HORIZON = 0.01
+"""Cosine to the geometric normal that a mirrored direction keeps, where the viewer has twice it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -192,6 +196,28 @@ def bent_normals(table: MaterialTable, points: Points, row: NDArray[np.int64]) -
     wanted = table.columns["normal_texture"][row]
     bent = normalize(textured(table, wanted, points, np.zeros_like(ns)))
     return np.where((dot(points.wo, bent) > GRAZING)[:, None], bent, ns)
+
+
+def bend_to_horizon(surface: Surface) -> Surface:
+    """`surface` with shading normals of facets bent towards the geometric ones just until the mirrored view
+    is at the horizon: normals that halve the angle between `wo` and such a direction."""
+    material, wo, ng = surface.material, surface.wo, surface.ng
+    index = material.ior - 1.0
+    has_facets = (material.metallic > 0.0) | (material.transmission > 0.0) | (material.column["coat"] > 0.0)
+    has_facets |= (material.specular > 0.0) & (index != 0.0)
+    cosine, flat, tilt = dot(wo, surface.ns), dot(wo, ng), dot(surface.ns, ng)
+    horizon = np.minimum(HORIZON, 0.5 * flat)
+    sunk = has_facets & (2.0 * cosine * tilt < flat + horizon)
+    # In the plane of both normals, with ng as the second axis, wo is (along, flat). About a normal at the
+    # angle x from ng its image has the height |.| cos(2 x - a), a being the angle of wo's own projection.
+    side = normalize(surface.ns - tilt[:, None] * ng)
+    along = dot(wo, side)
+    angle = np.arctan2(along, flat)
+    reach = np.hypot(along, flat)
+    height = np.divide(horizon, reach, out=np.ones_like(reach), where=reach > 0.0)
+    turn = 0.5 * (angle + np.arccos(np.clip(height, -1.0, 1.0)))
+    bent = np.cos(turn)[:, None] * ng + np.sin(turn)[:, None] * side
+    return replace(surface, ns=np.where(sunk[:, None], bent, surface.ns))
 
 
 def build_surface(table: MaterialTable, hits: Hits, wo: Float64) -> Surface:
