@@ -9,6 +9,8 @@ namespace trg {
 namespace {
 
 constexpr int kAzimuths = 24, kHeights = 48;
+/// Neighbours of Fibonacci's series: a lattice of the former many points.
+constexpr int kLattice = 2584, kLatticeStep = 1597;
 
 /// Facets whose albedo is wanted.
 struct Facets {
@@ -30,6 +32,7 @@ float facet_albedo(const Facets& f, Vec3 wo, float slope_wo, Vec3 h) {
     if (up.z > 0.0f) sum += fresnel * unmasked(slope_wo, up, f.alpha);
     if (f.kind != EnergyKind::glass || !(fresnel < 1.0f)) return sum;
     const Vec3 down = normalize(h * (c - g) - wo);
+    if (down.z < 0.0f && is_thin_step(f.alpha, f.eta)) return sum + (1.0f - fresnel);
     if (down.z < 0.0f) sum += (1.0f - fresnel) * unmasked(slope_wo, down, f.alpha);
     return sum;
 }
@@ -41,16 +44,24 @@ float albedo_at(const Facets& f, float mu) {
     const Vec3 wo{std::sqrt(1.0f - safe * safe), 0.0f, safe};
     const float slope = ggx_slope(wo, f.alpha);
     double sum = 0.0, total = 0.0;
-    for (int i = 0; i < kAzimuths; ++i)
-        for (int j = 0; j < kHeights; ++j) {
-            // The integrand is even in the azimuth.
-            const float u = (static_cast<float>(i) + 0.5f) / (2 * kAzimuths);
-            // Steps shorten where facets turn away, which is where light is lost.
-            const float w = (static_cast<float>(j) + 0.5f) / kHeights;
-            const Vec3 h = sample_visible_normal(wo, f.alpha, u, 1.0f - w * w * w);
-            total += w * w;
-            sum += w * w * facet_albedo(f, wo, slope, h);
-        }
+    // The integrand is even in the azimuth, u. Steps in w shorten where facets turn away, which is
+    // where light is lost.
+    const auto add = [&](float u, float w) {
+        const Vec3 h = sample_visible_normal(wo, f.alpha, u, 1.0f - w * w * w);
+        total += w * w;
+        sum += w * w * facet_albedo(f, wo, slope, h);
+    };
+    if (f.kind == EnergyKind::glass && f.eta < 1.0f) {
+        // Total reflection jumps along curves, of which a grid may see too little.
+        for (int k = 0; k < kLattice; ++k)
+            add((static_cast<float>(k * kLatticeStep % kLattice) + 0.5f) / (2 * kLattice),
+                (static_cast<float>(k) + 0.5f) / kLattice);
+    } else {
+        for (int i = 0; i < kAzimuths; ++i)
+            for (int j = 0; j < kHeights; ++j)
+                add((static_cast<float>(i) + 0.5f) / (2 * kAzimuths),
+                    (static_cast<float>(j) + 0.5f) / kHeights);
+    }
     return static_cast<float>(sum / total);
 }
 

@@ -120,14 +120,14 @@ TRG_FN void add_base(const Material& m, const View& view, Vec3 metal, Vec3 opaqu
 /// The interface that lets light through.
 TRG_FN void add_glass(const Material& m, const View& view, Vec3 weight, Bsdf* b) {
     b->eta = view.outside ? m.ior : 1.0f / m.ior;
-    b->thin_step = b->alpha * std::fabs(b->eta - 1.0f) < 1e-5f;
+    b->thin_step = is_thin_step(b->alpha, b->eta);
     b->passed = {std::sqrt(m.base.x), std::sqrt(m.base.y), std::sqrt(m.base.z)};
     b->reflects = m.interface != Interface::refraction_only;
     b->reflected = m.interface == Interface::stained ? b->passed : Vec3{1.0f, 1.0f, 1.0f};
     b->glass_shift = m.glass_shift;
     b->glass = weight;
     const int32_t table = view.outside ? m.energy.outside : m.energy.inside;
-    if (table < 0 || b->smooth || b->thin_step || !(m.multiscatter > 0.0f) || !b->reflects) return;
+    if (table < 0 || b->smooth || !(m.multiscatter > 0.0f) || !b->reflects) return;
     const Energy e = look_up_energy(view.energy + table, m.energy.rows, m.roughness, view.wo.z);
     b->glass = weight * energy_factor(e, b->passed);
 }

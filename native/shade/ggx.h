@@ -32,4 +32,10 @@ TRG_FN Vec3 sample_visible_normal(Vec3 wo, float alpha, float u, float v) {
     return normalize(Vec3{alpha * h.x, alpha * h.y, larger(h.z, 0.0f)});
 }
 
+/// Whether an interface of `eta` bends light so little that its refraction can only be sampled; all
+/// of it then gets through, unmasked.
+TRG_FN bool is_thin_step(float alpha, float eta) {
+    return alpha * std::fabs(eta - 1.0f) < 1e-5f;
+}
+
 }  // namespace trg

@@ -44,7 +44,7 @@ def test_a_white_surface_in_white_light_is_white(kind: str, roughness: float):
 
 
 @pytest.mark.parametrize("roughness", ROUGHNESSES)
-@pytest.mark.parametrize("ior", [0.5, 1.0, 1.0 + 1e-7, 1.5, 10.0, 100.0])
+@pytest.mark.parametrize("ior", [0.5, 1.0, 1.0 + 1e-7, 1.0 + 1e-4, 1.5, 10.0, 100.0])
 def test_white_glass_of_any_index_keeps_all_light(ior: float, roughness: float):
     """Row B04; the tables are good to 1e-3 at 89.99 degrees."""
     for angle in ANGLES:
@@ -52,6 +52,14 @@ def test_white_glass_of_any_index_keeps_all_light(ior: float, roughness: float):
         weight = drawn.weight[:, 0]
         noise = weight.std() / np.sqrt(len(weight))
         assert weight.mean() == pytest.approx(1.0, abs=1e-3 + 4.0 * noise), angle
+
+
+def test_total_reflection_within_rough_glass_keeps_all_light():
+    """Straight on, where a table on an even grid was 6e-3 too high."""
+    material = Material(**WHITE, transmission=1.0, ior=1.5, roughness=0.83)
+    weight = sample(material, view(0.0), 1_000_000, False).weight[:, 0]
+    noise = weight.std() / np.sqrt(len(weight))
+    assert weight.mean() == pytest.approx(1.0, abs=1e-3 + 4.0 * noise)
 
 
 RINGS, SECTORS, FINE = 32, 16, 12
