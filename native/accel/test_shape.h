@@ -12,7 +12,7 @@ struct ShapeRay {
 };
 
 /// From the world to the space of a placement that moves.
-TRG_FN InverseMap into_at(const Placement& placement, float time) {
+TRG_RARE_FN InverseMap into_at(const Placement& placement, float time) {
     return inverse_map(transform_at(placement.keys, placement.key_count, time));
 }
 
@@ -25,7 +25,7 @@ TRG_FN ShapeRay enter_shape(const Placement& placement, const TracedRay& ray) {
     return {point_into(placement.into, ray.origin_d), vector_into(placement.into, ray.direction_d)};
 }
 
-TRG_FN Roots meet_shape(const Placement& placement, const TracedRay& ray) {
+TRG_INLINE_FN Roots meet_shape(const Placement& placement, const TracedRay& ray) {
     const ShapeRay local = enter_shape(placement, ray);
     if (placement.soup->shape == Shape::sphere) return meet_sphere(local.origin, local.direction);
     return {meet_plane(local.origin, local.direction), NAN};

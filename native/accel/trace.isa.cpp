@@ -19,7 +19,9 @@ struct ClosestQuery {
     const float* times;  // null: all in the middle of the shutter
     Hit* hits;
 
-    void alone(int k) const { hits[k] = closest_hit<Block>(index, rays[k], {time_of(times, k)}); }
+    TRG_INLINE_METHOD void alone(int k) const {
+        hits[k] = closest_hit<Block>(index, rays[k], {time_of(times, k)});
+    }
     bool together(int k) const {
         return closest_hits(index, rays + k, times ? times + k : nullptr, hits + k);
     }
@@ -45,7 +47,9 @@ struct AnyQuery {
     const float* times;
     uint8_t* hidden;
 
-    void alone(int k) const { hidden[k] = is_hidden<Block>(index, rays[k], {time_of(times, k)}); }
+    TRG_INLINE_METHOD void alone(int k) const {
+        hidden[k] = is_hidden<Block>(index, rays[k], {time_of(times, k)});
+    }
     bool together(int k) const {
         return are_hidden(index, rays + k, times ? times + k : nullptr, hidden + k);
     }

@@ -111,7 +111,8 @@ TRG_FN void start_search(const RayPacket& packet, PacketSearch& search) {
 
 /// Traces kPacketRays rays together (`times` may be null); false, with nothing done, when they do
 /// not go together.
-TRG_FN bool closest_hits(const WorldIndex& index, const Ray* rays, const float* times, Hit* hits) {
+TRG_APART_FN bool closest_hits(const WorldIndex& index, const Ray* rays, const float* times,
+                               Hit* hits) {
     RayPacket packet;
     if (!may_go_together(rays) || !make_packet(rays, times, index.reach, packet)) return false;
     PacketSearch search;
@@ -123,8 +124,8 @@ TRG_FN bool closest_hits(const WorldIndex& index, const Ray* rays, const float* 
 }
 
 /// Likewise for any hits.
-TRG_FN bool are_hidden(const WorldIndex& index, const Ray* rays, const float* times,
-                       uint8_t* hidden) {
+TRG_APART_FN bool are_hidden(const WorldIndex& index, const Ray* rays, const float* times,
+                             uint8_t* hidden) {
     RayPacket packet;
     if (!may_go_together(rays) || !make_packet(rays, times, index.reach, packet)) return false;
     PacketSearch search;

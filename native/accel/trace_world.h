@@ -93,11 +93,11 @@ TRG_FN void search_placement(const Placement& placement, const TracedRay& ray, A
 }
 
 template <class Block, class AnySearch>
-TRG_FN void search_world(const WorldIndex& index, const TracedRay& ray, AnySearch& search) {
+TRG_INLINE_FN void search_world(const WorldIndex& index, const TracedRay& ray, AnySearch& search) {
     const Placement* placements = index.placements.data();
     for (const Placement& plane : index.unbounded) search_placement<Block>(plane, ray, search);
     if (index.placements.size() == 1) return search_placement<Block>(*placements, ray, search);
-    walk_tree<true>(index.top, ray, &search.limit, [&](uint32_t k) {
+    walk_tree_here<true>(index.top, ray, &search.limit, [&](uint32_t k) {
         search_placement<Block>(placements[k], ray, search);
         return false;
     });
@@ -113,7 +113,7 @@ TRG_FN bool placement_hides(const Placement& placement, const TracedRay& ray, fl
 }
 
 template <class Block>
-TRG_FN bool world_hides(const WorldIndex& index, const TracedRay& ray, float t_max) {
+TRG_INLINE_FN bool world_hides(const WorldIndex& index, const TracedRay& ray, float t_max) {
     const auto visit = [&](uint32_t k) {
         return placement_hides<Block>(index.placements[k], ray, t_max);
     };
@@ -121,7 +121,7 @@ TRG_FN bool world_hides(const WorldIndex& index, const TracedRay& ray, float t_m
         if (placement_hides<Block>(plane, ray, t_max)) return true;
     if (index.placements.size() == 1) return visit(0);
     const float limit = t_max * kFarFactor;
-    return walk_tree<false>(index.top, ray, &limit, visit);
+    return walk_tree_here<false>(index.top, ray, &limit, visit);
 }
 
 /// `ray` with a direction of ordinary length, and the power of two by which its distances grew.
@@ -148,8 +148,8 @@ TRG_INLINE_FN ScaledRay scale_ray(Ray ray) {
 }
 
 template <class Block>
-TRG_FN Barycentrics hit_coordinates(const Search& search, const Placement& placement,
-                                    const TracedRay& ray) {
+TRG_INLINE_FN Barycentrics hit_coordinates(const Search& search, const Placement& placement,
+                                           const TracedRay& ray) {
     if (!search.block) return coordinates_of(placement, ray, search.t);
     const Block& block = *static_cast<const Block*>(search.block);
     if (placement.identity) return coordinates_of(block, search.lane, ray);
@@ -172,7 +172,7 @@ TRG_FN bool is_empty(const WorldIndex& index) {
 }
 
 template <class Block>
-TRG_FN Hit closest_hit(const WorldIndex& index, const Ray& ray, RayTag tag = {}) {
+TRG_INLINE_FN Hit closest_hit(const WorldIndex& index, const Ray& ray, RayTag tag = {}) {
     if (!is_traceable(ray) || is_empty(index)) return no_hit();
     const ScaledRay scaled = scale_ray(ray);
     TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);
@@ -199,7 +199,7 @@ TRG_FN Hit hit_beyond(const WorldIndex& index, const Ray& ray, RayTag tag, const
 }
 
 template <class Block>
-TRG_FN bool is_hidden(const WorldIndex& index, const Ray& ray, RayTag tag = {}) {
+TRG_INLINE_FN bool is_hidden(const WorldIndex& index, const Ray& ray, RayTag tag = {}) {
     if (!is_traceable(ray) || is_empty(index)) return false;
     const ScaledRay scaled = scale_ray(ray);
     TracedRay traced = prepare_ray(scaled.ray.origin, scaled.ray.direction, scaled.ray.t_min);

@@ -253,12 +253,19 @@ TRG_FN bool walk_nodes(const Subtree& tree, const NodeTest<BoxTest>& test, const
 /// Calls `visit(leaf)` for the leaves of the tree that the ray meets before `*limit`, which `visit`
 /// may lower; nearest first where `kSorted`. Ends early, with true, when `visit` returns true.
 template <bool kSorted, class Visit>
-TRG_FN bool walk_tree(const Tree& tree, const TracedRay& ray, const float* limit, Visit visit) {
+TRG_INLINE_FN bool walk_tree_here(const Tree& tree, const TracedRay& ray, const float* limit,
+                                  const Visit& visit) {
     if (tree.root == kNoNode) return false;
     const RayBounds bounds = bounds_of(ray);
     if (QuickBoxTest::fits(bounds))
         return walk_nodes<kSorted>(whole_of(tree), NodeTest<QuickBoxTest>(bounds), limit, visit);
     return walk_nodes<kSorted>(whole_of(tree), NodeTest<CarefulBoxTest>(bounds), limit, visit);
+}
+
+/// The same where it may be a call.
+template <bool kSorted, class Visit>
+TRG_FN bool walk_tree(const Tree& tree, const TracedRay& ray, const float* limit, Visit visit) {
+    return walk_tree_here<kSorted>(tree, ray, limit, visit);
 }
 
 }  // namespace trg::TRG_ISA

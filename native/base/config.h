@@ -21,6 +21,14 @@
 #define TRG_RARE_FN [[maybe_unused]] static
 #endif
 
+/// As TRG_FN, for large parts that are entered once for much work and must stay apart from what is
+/// inlined beside them.
+#if defined(__GNUC__)
+#define TRG_APART_FN [[maybe_unused]] __attribute__((noinline)) static
+#else
+#define TRG_APART_FN [[maybe_unused]] static
+#endif
+
 /// Namespace of the instruction set that this unit is compiled for (baseline, avx2 or avx512).
 #ifndef TRG_ISA
 #define TRG_ISA baseline
