@@ -66,26 +66,20 @@ void Film::make_tiles() {
 }
 
 void Film::add(const Chunk& chunk, const PathQueues& queues, const PassView& view) {
-    const int32_t count = chunk.pixel_count * chunk.samples;
-    for (int32_t i = 0; i < count; ++i) {
-        const PathResult& result = queues.results[i];
-        if (!is_finite(result.radiance)) {
-            reject(chunk.pixels[i / chunk.samples], chunk.first_sample + i % chunk.samples);
-            continue;
+    int32_t i = 0;
+    for (int32_t pixel = 0; pixel < chunk.pixel_count; ++pixel) {
+        const int64_t at = index_of(chunk.pixels[pixel]);
+        for (int32_t k = 0; k < chunk.samples; ++k, ++i) {
+            const PathResult& result = queues.results[i];
+            if (!is_finite(result.radiance)) {
+                reject(chunk.pixels[pixel], static_cast<int64_t>(chunk.first_sample) + k);
+                continue;
+            }
+            const uint32_t replicate =
+                (chunk.first_sample + static_cast<uint32_t>(k)) % kReplicates;
+            add_result(at, static_cast<int>(replicate), result);
+            if (queues.passes.states) pass_film_.add(at, view, queues.passes, i);
         }
-        const int64_t at = index_of(chunk.pixels[i / chunk.samples]);
-        const int replicate =
-            static_cast<int>((chunk.first_sample + i % chunk.samples) % kReplicates);
-        double* sum = &sums_[(at * replicates_ + replicate) * channels_];
-        sum[0] += result.radiance.x;
-        sum[1] += result.radiance.y;
-        sum[2] += result.radiance.z;
-        if (layout_.passes.alpha) sum[3] += result.hit;
-        if (queues.passes.states) pass_film_.add(at, view, queues.passes, i);
-        if (!layout_.passes.normal) continue;
-        normals_[3 * at] += result.normal.x;
-        normals_[3 * at + 1] += result.normal.y;
-        normals_[3 * at + 2] += result.normal.z;
     }
 }
 
@@ -108,6 +102,18 @@ void Film::reject(Pixel pixel, int64_t sample) {
 std::vector<RejectedSample> Film::rejected_places() const {
     const std::lock_guard<std::mutex> hold(rejected_lock_);
     return rejected_places_;
+}
+
+void Film::add_result(int64_t at, int replicate, const PathResult& result) {
+    double* sum = &sums_[(at * replicates_ + replicate) * channels_];
+    sum[0] += result.radiance.x;
+    sum[1] += result.radiance.y;
+    sum[2] += result.radiance.z;
+    if (layout_.passes.alpha) sum[3] += result.hit;
+    if (!layout_.passes.normal) return;
+    normals_[3 * at] += result.normal.x;
+    normals_[3 * at + 1] += result.normal.y;
+    normals_[3 * at + 2] += result.normal.z;
 }
 
 void Film::set_depth(const Pixel* pixels, int32_t count, const float* depth) {

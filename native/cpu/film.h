@@ -140,6 +140,7 @@ class Film {
   private:
     void make_tiles();
     void reject(Pixel pixel, int64_t sample);
+    void add_result(int64_t at, int replicate, const PathResult& result);
 
     FilmLayout layout_;
     int replicates_;

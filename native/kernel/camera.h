@@ -84,31 +84,54 @@ TRG_FN float filter_place(const RenderView& view, float u) {
     return 0.5f + view.scene.filter[step] * (1.0f - part) + view.scene.filter[step + 1] * part;
 }
 
+/// A sample of a pixel, with two even numbers for its place there.
+struct PathStart {
+    Pixel pixel;
+    uint32_t sample;
+    SampleKey key;
+    Sample2 even;
+};
+
+/// Starts path `i`.
+TRG_FN void start_path(const RenderView& view, const PathStart& start, PathQueues& queues,
+                       int32_t i) {
+    const SampleKey key = start.key;
+    const Sample2 uv = place_in_pixel(view.scene.antialiasing, key, start.sample, start.even);
+    queues.keys[i] = key;
+    const Sample2 lens = view.scene.camera.aperture > 0.0f ? sample_uniform2(key, kLensDimension)
+                                                           : Sample2{0.5f, 0.5f};
+    const float x = static_cast<float>(start.pixel.x) + filter_place(view, uv.u);
+    const float y = static_cast<float>(start.pixel.y) + filter_place(view, uv.v);
+    if (view.scene.timed) queues.times[i] = sample_uniform2(key, kTimeDimension).u;
+    queues.rays[i] = view.scene.camera_key_count > 0
+                         ? make_camera_ray(view_at(view, queues.times[i]), x, y, lens)
+                         : make_camera_ray(view, x, y, lens);
+    queues.states[i] = {{1.0f, 1.0f, 1.0f}, 0.0f, i};
+    queues.media[i].count = 0;
+    queues.results[i] = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, false};
+}
+
 /// Starts the paths of `chunk`; returns how many.
 TRG_FN int32_t generate_paths(const RenderView& view, const Chunk& chunk, PathQueues& queues) {
-    const int32_t count = chunk.pixel_count * chunk.samples;
-    for (int32_t i = 0; i < count; ++i) {
-        const Pixel pixel = chunk.pixels[i / chunk.samples];
-        const uint32_t sample = chunk.first_sample + static_cast<uint32_t>(i % chunk.samples);
-        const SampleKey key = make_sample_key(static_cast<uint32_t>(pixel.x),
-                                              static_cast<uint32_t>(pixel.y), sample, view.seed);
-        const Sample2 uv = place_in_pixel(view.scene.antialiasing, key, sample,
-                                          sample_uniform2(key, kPixelDimension));
-        queues.keys[i] = key;
-        const Sample2 lens = view.scene.camera.aperture > 0.0f
-                                 ? sample_uniform2(key, kLensDimension)
-                                 : Sample2{0.5f, 0.5f};
-        const float x = static_cast<float>(pixel.x) + filter_place(view, uv.u);
-        const float y = static_cast<float>(pixel.y) + filter_place(view, uv.v);
-        if (view.scene.timed) queues.times[i] = sample_uniform2(key, kTimeDimension).u;
-        queues.rays[i] = view.scene.camera_key_count > 0
-                             ? make_camera_ray(view_at(view, queues.times[i]), x, y, lens)
-                             : make_camera_ray(view, x, y, lens);
-        queues.states[i] = {{1.0f, 1.0f, 1.0f}, 0.0f, i};
-        queues.media[i].count = 0;
-        queues.results[i] = {{0.0f, 0.0f, 0.0f}, {0.0f, 0.0f, 0.0f}, false};
+    int32_t i = 0;
+    for (int32_t p = 0; p < chunk.pixel_count; ++p) {
+        const Pixel pixel = chunk.pixels[p];
+        for (int32_t first = 0; first < chunk.samples; first += kSampleLanes) {
+            const uint32_t sample = chunk.first_sample + static_cast<uint32_t>(first);
+            KeyBlock block;
+            draw_keys(
+                {static_cast<uint32_t>(pixel.x), static_cast<uint32_t>(pixel.y), sample, view.seed},
+                kPixelDimension, &block);
+            for (int k = 0; k < kSampleLanes && first + k < chunk.samples; ++k)
+                start_path(view,
+                           {pixel,
+                            sample + static_cast<uint32_t>(k),
+                            {block.stream[k], block.reversed_index[k]},
+                            {block.u[k], block.v[k]}},
+                           queues, i++);
+        }
     }
-    return count;
+    return i;
 }
 
 }  // namespace trg

@@ -20,6 +20,7 @@ struct Vertex {
     const Boundary* boundary;    // between media with priorities, or null
     SampleKey key;
     uint32_t dimension;
+    DimensionBlock drawn;  // of `dimension` and those after it
     int32_t path;
     uint8_t dark = 0;  // RayKinds of scattering that bring no light here
 };
@@ -179,14 +180,12 @@ TRG_FN void add_light_samples(const SceneView& scene, const Vertex& v, ShadowQue
     const EmitterView& e = scene.emitters;
     for (int32_t k = 0; k < e.always_count; ++k)
         add_light_sample<F>(scene.lights[e.always[k]], v, 1.0f,
-                            sample_uniform2(v.key, v.dimension + kAlwaysLight + k), queue);
+                            uniform_of_block(v.drawn, kAlwaysLight + k), queue);
     if constexpr (has(F, kEnvironment))
         if (scene.environment.sampled) add_sky_sample<F>(scene.environment, v, queue);
     if (e.pool_count == 0) return;
-    const Sample2 uv = sample_uniform2(v.key, v.dimension + kPoolPoint);
-    uint32_t choice[2] = {0, 0};
-    if (e.pool_count > 1 || e.triangle_count > 1 || e.tree.nodes)
-        sample_bits(v.key, v.dimension + kPoolChoice, choice);
+    const Sample2 uv = uniform_of_block(v.drawn, kPoolPoint);
+    uint32_t choice[2] = {v.drawn.first[kPoolChoice], v.drawn.second[kPoolChoice]};
     if (e.tree.nodes && e.pool_count == 1) {
         add_tree_sample<F>(scene, v, choice, uv, queue);
         return;

@@ -177,5 +177,7 @@ enum Dimension : uint32_t {
     kDimensionsPerBounce = 11,
 };
 constexpr int kMostAlwaysLights = 4;
+static_assert(kAlwaysLight + kMostAlwaysLights == kSampleLanes,
+              "the dimensions of most surfaces are one block");
 
 }  // namespace trg

@@ -148,19 +148,21 @@ TRG_FN void look_up_layers(LookUp* look, Material* m) {
     if (m->sheen_texture >= 0) m->sheen = m->sheen * clamp01(look_up<F>(look, m->sheen_texture).x);
 }
 
-/// The material in `row` at the point, its textures looked up.
+/// The material in `row` at the point, its textures looked up; `*room` holds one that they change.
 template <uint32_t F>
-TRG_FN Material material_at(LookUp* look, int32_t row) {
-    Material m = look->scene.materials[row];
+TRG_FN const Material& material_at(LookUp* look, int32_t row, Material* room) {
+    const Material& plain = look->scene.materials[row];
     if constexpr (has(F, kTextures)) {
+        Material& m = *room = plain;
         if (m.base_texture >= 0) m.base = look_up<F>(look, m.base_texture);
         if (m.roughness_texture >= 0)
             m.roughness = clamp01(look_up<F>(look, m.roughness_texture).x);
         if (m.metallic_texture >= 0) m.metallic = clamp01(look_up<F>(look, m.metallic_texture).x);
         if constexpr (has(F, kLayers)) look_up_layers<F>(look, &m);
         m.base = {clamp01(m.base.x), clamp01(m.base.y), clamp01(m.base.z)};
+        return m;
     }
-    return m;
+    return plain;
 }
 
 /// The shading normal that the normal texture of the material in `row` asks for, on the viewer's
@@ -200,16 +202,24 @@ TRG_FN bool make_vertex(const SceneView& scene, Vec3 wo, Vertex* v, Vec3* normal
     v->row = row;
     *normal = bent_normal<F>(&look, row, *normal);
     if (!(dot(wo, *normal) > 0.0f)) return false;
-    Material m = material_at<F>(&look, row);
+    Material room;
+    const Material& m = material_at<F>(&look, row, &room);
     Vec3 up = *normal;
     if constexpr (has(F, kSmoothNormals) || has(F, kPrograms))
         if (has_facets(m)) up = bend_to_horizon(up, v->ng, wo);
     v->frame = make_frame(up);
     const View view{to_local(v->frame, wo), to_local(v->frame, v->ng), facing >= 0.0f,
                     scene.energy};
-    if constexpr (has(F, kMedia))
-        if (v->boundary) face_medium(*v->boundary, view.outside, row == s.material, &m);
-    if constexpr (has(F, kLimits)) drop_caustics(&m, v);
+    if constexpr (has(F, kMedia) || has(F, kLimits)) {
+        if (has(F, kLimits) || v->boundary) {
+            Material changed = m;
+            if constexpr (has(F, kMedia))
+                if (v->boundary)
+                    face_medium(*v->boundary, view.outside, row == s.material, &changed);
+            if constexpr (has(F, kLimits)) drop_caustics(&changed, v);
+            return make_bsdf<lobes_of(F)>(changed, view, &v->bsdf);
+        }
+    }
     return make_bsdf<lobes_of(F)>(m, view, &v->bsdf);
 }
 
@@ -226,8 +236,8 @@ TRG_FN void enter_beyond(ShadeStage& stage, const Vertex& v) {
 /// Draws the next direction and keeps the path if it survives roulette.
 template <uint32_t F>
 TRG_FN void continue_path(ShadeStage& stage, const Vertex& v) {
-    const Sample2 choice = sample_uniform2(v.key, v.dimension + kLobe);
-    const Sample2 uv = sample_uniform2(v.key, v.dimension + kDirection);
+    const Sample2 choice = uniform_of_block(v.drawn, kLobe);
+    const Sample2 uv = uniform_of_block(v.drawn, kDirection);
     BsdfSample next;
     if (!sample_bsdf<lobes_of(F)>(v.bsdf, choice.u, uv, &next)) return;
     Vec3 throughput = v.throughput * next.weight;
@@ -363,6 +373,7 @@ TRG_FN void shade_path(ShadeStage& stage, int32_t slot) {
     if constexpr (has(F, kLimits))
         if (stage.depth == 0 && scene.materials[v.row].holdout) result.hit = false;
     if (!scatters) return;
+    draw_dimensions(v.key, v.dimension, &v.drawn);
     scatter_path<F>(stage, v);
 }
 

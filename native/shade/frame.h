@@ -65,6 +65,28 @@ TRG_FN Vec3 normalize_safe(Vec3 a) {
     return scaled / length(scaled);
 }
 
+struct SineCosine {
+    float sine, cosine;
+};
+
+/// Of an angle between -pi/4 and pi/4, to within 8e-8: minimax polynomials.
+TRG_FN SineCosine sine_cosine(float x) {
+    const float z = x * x;
+    const float sine = x + x * z * (-0.166666552f + z * (0.008332178f + z * -0.000195172339f));
+    const float cosine =
+        (1.0f - 0.5f * z) + z * z * (0.0416666456f + z * (-0.00138873665f + z * 2.44383791e-05f));
+    return {sine, cosine};
+}
+
+/// Of `u` full turns, 0 to 1.
+TRG_FN SineCosine sine_cosine_of_turn(float u) {
+    const int quarter = static_cast<int>(4.0f * u + 0.5f);
+    const SineCosine rest = sine_cosine(2.0f * kPi * (u - 0.25f * static_cast<float>(quarter)));
+    const bool odd = (quarter & 1) != 0;
+    const float sine = odd ? rest.cosine : rest.sine, cosine = odd ? rest.sine : rest.cosine;
+    return {(quarter & 2) != 0 ? -sine : sine, ((quarter + 1) & 2) != 0 ? -cosine : cosine};
+}
+
 /// A point of the unit disc, uniform by area (Shirley and Chiu 1997).
 TRG_FN void sample_disc(float u, float v, float* x, float* y) {
     const float a = 2.0f * u - 1.0f, b = 2.0f * v - 1.0f;
@@ -74,9 +96,9 @@ TRG_FN void sample_disc(float u, float v, float* x, float* y) {
     }
     const bool wide = std::fabs(a) > std::fabs(b);
     const float r = wide ? a : b;
-    const float angle = wide ? 0.25f * kPi * (b / a) : 0.5f * kPi - 0.25f * kPi * (a / b);
-    *x = r * std::cos(angle);
-    *y = r * std::sin(angle);
+    const SineCosine turn = sine_cosine(0.25f * kPi * (wide ? b / a : a / b));
+    *x = r * (wide ? turn.cosine : turn.sine);
+    *y = r * (wide ? turn.sine : turn.cosine);
 }
 
 /// A local direction with density cos / pi.

@@ -25,10 +25,10 @@ TRG_FN float ggx_slope(Vec3 w, float alpha) {
 /// spherical caps, Dupuy and Benyoub 2023.
 TRG_FN Vec3 sample_visible_normal(Vec3 wo, float alpha, float u, float v) {
     const Vec3 stretched = normalize(Vec3{alpha * wo.x, alpha * wo.y, wo.z});
-    const float phi = 2.0f * kPi * u;
+    const SineCosine phi = sine_cosine_of_turn(u);
     const float z = (1.0f - v) * (1.0f + stretched.z) - stretched.z;
     const float r = std::sqrt(larger(0.0f, (1.0f - z) * (1.0f + z)));
-    const Vec3 h{r * std::cos(phi) + stretched.x, r * std::sin(phi) + stretched.y, z + stretched.z};
+    const Vec3 h{r * phi.cosine + stretched.x, r * phi.sine + stretched.y, z + stretched.z};
     return normalize(Vec3{alpha * h.x, alpha * h.y, larger(h.z, 0.0f)});
 }
 

@@ -64,8 +64,8 @@ TRG_FN float eval_spread(const Light& light, float cosine) {
 TRG_FN Vec3 sample_cone(Vec3 axis, float chord2, Sample2 uv) {
     const float drop = 0.5f * chord2 * uv.u;  // 1 - cos
     const float sine = std::sqrt(larger(0.0f, drop * (2.0f - drop)));
-    const float phi = 2.0f * kPi * uv.v;
-    return to_world(make_frame(axis), {sine * std::cos(phi), sine * std::sin(phi), 1.0f - drop});
+    const SineCosine phi = sine_cosine_of_turn(uv.v);
+    return to_world(make_frame(axis), {sine * phi.cosine, sine * phi.sine, 1.0f - drop});
 }
 
 TRG_FN bool sample_sun(const Light& light, Sample2 uv, LightSample* sample) {
