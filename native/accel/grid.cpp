@@ -135,7 +135,8 @@ Grid lay_grid(const Bounds& bounds, double cells) {
         extent[axis] += 2 * pad;
         volume *= extent[axis];
     }
-    const double edge = std::cbrt(volume / cells);
+    // Cubes as large as a flat box has room for are many.
+    const double edge = cells > 1 ? std::cbrt(volume / cells) : HUGE_VAL;
     for (int axis = 0; axis < 3; ++axis) {
         const double along = std::clamp(extent[axis] / edge, 1.0, double{kMostCellsAlong});
         grid.size[axis] = static_cast<int32_t>(along);

@@ -157,9 +157,12 @@ void cut_into_runs(BlockItems& runs, int64_t first, int64_t last) {
 BlockItems build_grid(const PrimRefs& refs, const Bounds& bounds, bool divide, int threads,
                       GridIndex* index) {
     Division whole;
-    whole.grid = divide ? best_outer_grid(bounds, refs) : best_grid(bounds, refs);
+    const bool hopeless = divide && is_overlapping(bounds, refs);
+    whole.grid = hopeless ? lay_grid(bounds, 1)
+                 : divide ? best_outer_grid(bounds, refs)
+                          : best_grid(bounds, refs);
     whole.lists = list_cells(whole.grid, refs);
-    if (divide) divide_cells(&whole, refs, 1, threads);
+    if (divide && !hopeless) divide_cells(&whole, refs, 1, threads);
     BlockItems runs;
     runs.begin.assign(1, 0);
     KnownLists known;
