@@ -95,9 +95,12 @@ CATALOGUE = (
 def cases() -> Iterator[Case]:
     """Every case in the order of the catalogue."""
     from . import (
+        estimate_rows,
         instance_rows,
         leaving_rows,
         ray_rows,
+        scattering_rows,
+        shading_rows,
         shape_rows,
         structure_rows,
         triangle_rows,
@@ -110,6 +113,9 @@ def cases() -> Iterator[Case]:
         leaving_rows,
         instance_rows,
         shape_rows,
+        scattering_rows,
+        shading_rows,
+        estimate_rows,
     )
     order = [entry.id for entry in CATALOGUE]
     found = chain.from_iterable(room.cases() for room in rooms)

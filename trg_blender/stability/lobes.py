@@ -27,6 +27,10 @@ def view(degrees: float, azimuth: float = 0.7) -> Float32:
     )
 
 
+BELOW_ONE = 1.0 - 2.0**-24
+"""the largest uniform"""
+
+
 @dataclass(frozen=True, slots=True)
 class Samples:
     wi: Float64
@@ -48,7 +52,12 @@ def sample(material: Material, wo: Float32, count: int, outside: bool = True, se
     rng = np.random.default_rng(seed)
     uniforms = rng.random((count, 3))
     uniforms[:, 0] = (np.arange(count) + uniforms[:, 0]) / count
-    uniforms = np.minimum(uniforms, 1.0 - 2.0**-24).astype(np.float32)
+    return draw(material, wo, np.minimum(uniforms, BELOW_ONE).astype(np.float32), outside)
+
+
+def draw(material: Material, wo: Float32, uniforms: Float32, outside: bool = True) -> Samples:
+    """One sample for each row of `uniforms` (n, 3): the choice of the lobe, and two for the direction."""
+    count = len(uniforms)
     many = np.ascontiguousarray(np.broadcast_to(wo, (count, 3)), dtype=np.float32)
     wi, weight, pdf = np.empty_like(many), np.empty_like(many), np.empty(count, np.float32)
     load_native().bsdf_sample(packed(material), many, uniforms, outside, wi, weight, pdf)
