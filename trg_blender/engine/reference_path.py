@@ -167,12 +167,7 @@ def trace_paths(
     estimate = Estimate(np.zeros((count, 3)), np.zeros(count, dtype=bool), np.zeros((count, 3)))
     estimate.rules = world.rules
     estimate.notes = make_notes(count, passes, world.scene.pass_data)
-    limits, rays = new_limits(count), camera.rays
-    paths = Paths(
-        rays, np.ones((count, 3)), np.full(count, np.inf), np.arange(count), no_media(count), limits
-    )
-    if world.nested is not None and world.scene.camera.kind != ORTHOGRAPHIC:
-        paths.media[:] = media_around(world.nested, world.scene.camera.matrix[:, 3])
+    paths = paths_of(world, camera)
     for segment in range(max_bounces + 2):
         paths, hits = meet(world, paths, rng)
         boundary = None
@@ -216,6 +211,16 @@ def trace_paths(
         paths = note_scattering(world, paths, bsdf, scattered, (dark, rng.random(len(dark))))
         paths = go_on(paths, surface, scattered, rng, roulette=segment >= ROULETTE_START)
     return estimate
+
+
+def paths_of(world: World, camera: CameraRays) -> Paths:
+    """The beginnings of the paths, in the media that the camera is in."""
+    count = len(camera.near)
+    bright, pdf = np.ones((count, 3)), np.full(count, np.inf)
+    paths = Paths(camera.rays, bright, pdf, np.arange(count), no_media(count), new_limits(count))
+    if world.nested is not None and world.scene.camera.kind != ORTHOGRAPHIC:
+        paths.media[:] = media_around(world.nested, world.scene.camera.matrix[:, 3])
+    return paths
 
 
 def shown(world: World, hits: Hits, segment: int) -> NDArray[np.bool_]:
