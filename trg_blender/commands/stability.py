@@ -42,7 +42,7 @@ def add_parser(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) 
         "engine fails.",
     )
     add = parser.add_argument
-    add("--rows", type=words, default=(), metavar="G01,A,S", help="ids, or beginnings of ids; all")
+    add("--rows", "--case", type=words, default=(), metavar="G01,A,S", help="ids, or beginnings of ids; all")
     add("--accel", type=words, default=SUBJECTS, metavar="A,B", help="subjects: " + ", ".join(SUBJECTS))
     size = parser.add_mutually_exclusive_group()
     size.add_argument("--quick", action="store_true", help="few rays and samples: a minute in all")
