@@ -12,7 +12,6 @@ from trg_blender.stability.runner import FAIL, Plan, run_case, unknown_rows
 ENTRIES = {entry.id: entry for entry in CATALOGUE}
 CASES = {f"{case.id} {case.name}": case for case in cases()}
 MISSED = {
-    "B04 index 1.0001, roughness 0.1, inside": "loses 7 % of the light at 89 degrees",
     "B09": "reflectance is 6e-4 off within 1e-7 of the critical angle",
     "B14 image at 1e+06": "single-precision coordinates are half a texel of this image apart there",
 }
