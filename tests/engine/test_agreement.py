@@ -5,6 +5,8 @@ The rule stands in agreement.py: whole picture |z| < 3, blocks within what fair 
 
 from __future__ import annotations
 
+import os
+import sys
 from dataclasses import replace
 
 import pytest
@@ -23,6 +25,8 @@ STEPS = (1, 4, 16)
 
 @pytest.mark.parametrize("name", CASES)
 def test_native_and_reference_agree(name: str):
+    if os.environ.get("CI") == "true" and sys.version_info < (3, 12):
+        pytest.skip("compared on the newest Python alone: the core is one binary for all")
     for device in ("cpu", "embree"):
         reason = find_device(device).reason
         if reason is not None:
