@@ -177,14 +177,18 @@ def move_back():
 
 
 def memory_steps():
-    """Memory after a fifth of the changes and after all."""
+    """Memory over the second and over the last fifth of the changes: the middle of each, as it swings."""
+    readings = []
     for number in range(CHANGES):
         bpy.data.objects["Cube"].location.y = 0.01 * number
         turn(0.01)
-        if number == CHANGES // 5:
-            seen["memory_early_mb"] = memory()
         yield 0.01
-    seen["memory_late_mb"] = memory()
+        readings.append(memory())
+    fifth = CHANGES // 5
+    seen["memory_early_mb"] = sorted(readings[fifth : 2 * fifth])[fifth // 2]
+    seen["memory_late_mb"] = sorted(readings[-fifth:])[fifth // 2]
+    area = viewport()[1]
+    seen["changes"], seen["picture_mb"] = CHANGES, area.width * area.height * 16 / 2**20
 
 
 def second_viewport():
