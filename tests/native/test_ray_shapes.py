@@ -6,33 +6,13 @@ import numpy as np
 import pytest
 
 from trg_blender.engine.native import Hits, RayScene
+from trg_blender.stability.shape_rows import exact_sphere, scene_with
 
-from .meshes import ACCELS, Float32, Float64, icosphere, random_rays
+from .meshes import ACCELS, Float32, icosphere, random_rays
 
 
 def at(x: float, y: float, z: float, scale: float = 1.0) -> Float32:
     return np.column_stack([np.eye(3) * scale, (x, y, z)]).astype(np.float32)
-
-
-def scene_with(transform: Float32 | None, shape: str = "sphere", accel: str = "auto") -> RayScene:
-    scene = RayScene(accel)
-    mesh = scene.add_sphere() if shape == "sphere" else scene.add_plane()
-    scene.add_instance(mesh, transform)
-    scene.build()
-    return scene
-
-
-def exact_sphere(origins: Float32, directions: Float32, radius: float) -> tuple[Float64, Float64]:
-    """Distance to the sphere round the origin in extended precision (NaN: missed), and the distance
-    between the line and the centre."""
-    o, d = origins.astype(np.longdouble), directions.astype(np.longdouble)
-    dd, od = (d * d).sum(1), (o * d).sum(1)
-    q = o - d * (od / dd)[:, None]
-    across = (q * q).sum(1)
-    with np.errstate(invalid="ignore"):
-        half = np.sqrt((np.longdouble(radius) ** 2 - across) / dd)
-    near, far = -od / dd - half, -od / dd + half
-    return np.where(near > 0, near, far), np.sqrt(across)
 
 
 @pytest.mark.parametrize("distance", [1e1, 1e2, 1e3, 1e4, 1e5])
