@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from trg_blender.engine.scene_arrays import Light, Material
+from trg_blender.stability import leaving_rows
 
-from .meshes import mesh_of
 from .render_scenes import GLOW, POINT, Camera, Settings, add_object, make_floor, new_scene, picture
 
 GLASS = Material(1.0, 1.0, 1.0, transmission=1.0, roughness=0.0, ior=1.5)
@@ -18,23 +18,9 @@ STRONG_GLASS, WEAK_WATER = replace(GLASS, priority=2.0), replace(WATER, priority
 
 
 def box(half: float, low: float, high: float, turned: bool = False) -> tuple[np.ndarray, np.ndarray]:
-    """A closed box about the z axis; `turned`: the other diagonals."""
-    corners = np.array([(x, y, z) for x in (-half, half) for y in (-half, half) for z in (low, high)])
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    if turned:
-        quads = [quad[1:] + quad[:1] for quad in quads]
-    mesh = mesh_of(corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]))
+    """The catalogue's box as vertices and triangles."""
+    mesh = leaving_rows.box(half, low, high, turned)
     return mesh.vertices, mesh.triangles
-
-
-def through_slabs(ratios: list[float]) -> float:
-    """Share of light that goes straight through parallel interfaces, all reflections between them in."""
-    passed, reflected = 1.0, 0.0
-    for ratio in ratios:
-        r = ((ratio - 1) / (ratio + 1)) ** 2
-        between = 1 - reflected * r
-        passed, reflected = passed * (1 - r) / between, reflected + passed**2 * r / between
-    return passed
 
 
 def lit_from_within(materials: list[Material], overlap: float, glass_first: bool, turned: bool) -> float:
@@ -61,13 +47,13 @@ def test_s07_s08_light_crosses_from_water_into_glass_at_one_boundary(
 @pytest.mark.parametrize("gap", [1e-4, 1e-2])
 def test_s08_a_gap_is_a_film_of_air(gap: float):
     found = lit_from_within([STRONG_GLASS, WEAK_WATER], -gap, True, False)
-    assert found == pytest.approx(through_slabs([1.5, 1.5, 1.33]), abs=2e-3)
+    assert found == pytest.approx(leaving_rows.through_slabs([1.5, 1.5, 1.33]), abs=2e-3)
 
 
 @pytest.mark.parametrize("overlap", [1e-5, 0.1])
 def test_s08_without_priorities_both_boundaries_are_those_to_air(overlap: float):
     found = lit_from_within([GLASS, WATER], overlap, True, False)
-    assert found == pytest.approx(through_slabs([1.5, 1.5, 1.33]), abs=2e-3)
+    assert found == pytest.approx(leaving_rows.through_slabs([1.5, 1.5, 1.33]), abs=2e-3)
 
 
 @pytest.mark.parametrize("roughness", [0.0, 0.3])

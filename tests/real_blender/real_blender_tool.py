@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import json
 import os
 import subprocess
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parents[2]
 TOOL = ROOT / "tools" / "real_blender.sh"
@@ -53,6 +55,27 @@ class RealBlender:
     def script(self, name: str, *arguments: str | Path) -> Finished:
         """Runs a script of `inside/` without a window, with `arguments` after `--`."""
         return self.run("-b", "--python-exit-code", "9", "--python", INSIDE / name, "--", *arguments)
+
+
+def drive_window(blender: RealBlender, script: str, *arguments: str | Path) -> dict[str, Any]:
+    """Runs a script of `inside/` in Blender's window of 1600 x 900; the facts that it wrote into the file
+    named last."""
+    done = blender.run(
+        *("--window-geometry", "0", "0", "1600", "900"),
+        *("--python", INSIDE / script, "--", *arguments),
+        gui=True,
+    )
+    assert done.status == 0, done.text
+    assert "Traceback" not in done.text, done.text
+    facts: dict[str, Any] = json.loads(Path(arguments[-1]).read_text(encoding="utf-8"))
+    return facts
+
+
+def pictures_of(blender: RealBlender) -> Path:
+    """The folder for screenshots of this version."""
+    pictures = ROOT / "build" / "screenshots" / blender.version
+    pictures.mkdir(parents=True, exist_ok=True)
+    return pictures
 
 
 def is_installed(version: str) -> bool:

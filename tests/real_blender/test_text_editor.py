@@ -2,25 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
-from .real_blender_tool import INSIDE, ROOT, RealBlender
-
-PICTURES = ROOT / "build" / "screenshots"
+from .real_blender_tool import RealBlender, drive_window, pictures_of
 
 
 def test_a_program_is_written_and_run(blender: RealBlender, tmp_path: Path) -> None:
-    pictures = PICTURES / blender.version
-    pictures.mkdir(parents=True, exist_ok=True)
-    facts = tmp_path / "facts.json"
-    done = blender.run(
-        "--window-geometry", "0", "0", "1600", "900",
-        "--python", INSIDE / "text_editor.py", "--", pictures, facts, gui=True,
-    )  # fmt: skip
-    assert done.status == 0, done.text
-    assert "Traceback" not in done.text, done.text
-    noted = json.loads(facts.read_text(encoding="utf-8"))
+    pictures = pictures_of(blender)
+    noted = drive_window(blender, "text_editor.py", pictures, tmp_path / "facts.json")
     assert noted["before"] == [["error", 7, 15]]
     assert "ring.trg:7:15: error" in noted["error"]
     assert noted["cursor_after_wrong_run"] == [6, 14]

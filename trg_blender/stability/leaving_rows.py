@@ -147,10 +147,13 @@ def coplanar(second: list[tuple[int, int, int]], size: float, turned: bool) -> R
     return row
 
 
-def box(half: float, low: float, high: float) -> Mesh:
-    """A closed box of height `low` to `high` about the z axis, its outside counter-clockwise."""
+def box(half: float, low: float, high: float, turned: bool = False) -> Mesh:
+    """A closed box of height `low` to `high` about the z axis, its outside counter-clockwise; `turned`: the
+    other diagonals."""
     corners = np.array([(x, y, z) for x in (-half, half) for y in (-half, half) for z in (low, high)])
     quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+    if turned:
+        quads = [quad[1:] + quad[:1] for quad in quads]
     return mesh_of(corners, np.array([t for a, b, c, d in quads for t in ((a, b, c), (a, c, d))]))
 
 
