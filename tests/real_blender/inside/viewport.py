@@ -187,8 +187,6 @@ def memory_steps():
     fifth = CHANGES // 5
     seen["memory_early_mb"] = sorted(readings[fifth : 2 * fifth])[fifth // 2]
     seen["memory_late_mb"] = sorted(readings[-fifth:])[fifth // 2]
-    area = viewport()[1]
-    seen["changes"], seen["picture_mb"] = CHANGES, area.width * area.height * 16 / 2**20
 
 
 def second_viewport():
